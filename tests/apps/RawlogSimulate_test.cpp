@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservationRobotPose;
 using mrpt::obs::CObservationVelodyneScan;
 
-const fs::path kOrchard = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/orchard.rawlog";
+const fs::path kOrchardLog = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/orchard.rawlog";
 constexpr double kRoi = 443232, kRou = 185797;  // ground-truth labels
 
 struct LogContent {
@@ -228,7 +228,7 @@ TEST_F(RawlogSimulate, ReproducesDemoRecording) {
     const auto outcome = run({"--scenario", "orchard", "--scans", "30", "--every-s", "0.2",
                               "--altitude", "2", "--seed", "1", "-o", path("orchard.rawlog")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const LogContent kept = readLog(kOrchard), made = readLog(path("orchard.rawlog"));
+    const LogContent kept = readLog(kOrchardLog), made = readLog(path("orchard.rawlog"));
     ASSERT_EQ(kept.scans.size(), 30u);
     ASSERT_EQ(made.scans.size(), 30u);
     EXPECT_EQ(made.poses.size(), kept.poses.size());

@@ -13,7 +13,7 @@ using test::SmallFlightResult;
 using test::SolidWorld;
 
 /// An airborne task: eastwards at 2 m altitude to a distant goal.
-PlanningTask eastwards(double speed_m_s = 0) {
+PlanningTask flyingEast(double speed_m_s = 0) {
     PlanningTask task;
     task.start.position_m = {0, 0, 2};
     task.start.velocity_m_s = {speed_m_s, 0, 0};
@@ -37,14 +37,14 @@ INSTANTIATE_TEST_SUITE_P(All, Planners, testing::ValuesIn(plannerNames()),
 
 TEST_P(Planners, FlyStraightInEmptySpace) {
     for (double speed_m_s : {0.0, 4.0}) {
-        const Plan made = plan({}, eastwards(speed_m_s));
+        const Plan made = plan({}, flyingEast(speed_m_s));
         EXPECT_TRUE(made.command_m_s.isApprox(Eigen::Vector3d(4, 0, 0), 1e-9));
         EXPECT_FALSE(made.is_emergency);
     }
 }
 
 TEST_P(Planners, SlowDownForGoalOnly) {
-    PlanningTask task = eastwards(4);
+    PlanningTask task = flyingEast(4);
     task.carrot_m = {1, 0, 2};
     EXPECT_LT(plan({}, task).command_m_s.norm(), 2.1);
     task.beyond_carrot_m = 30;
@@ -60,7 +60,7 @@ TEST_P(Planners, SettleAtGoal) {
 }
 
 TEST_P(Planners, ClimbToCarrot) {
-    PlanningTask task = eastwards(4);
+    PlanningTask task = flyingEast(4);
     task.carrot_m.z() = 2.6;
     EXPECT_GT(plan({}, task).command_m_s.z(), 0.3);
     task.carrot_m.z() = 1.4;
@@ -110,7 +110,7 @@ TEST_P(Planners, PassOnlyWideGaps) {
 TEST_P(Planners, MoveAwayFromNearObstacle) {
     SolidWorld world;
     world.box({0.5f, -100, -100}, {1.5f, 100, 100});
-    PlanningTask task = eastwards();
+    PlanningTask task = flyingEast();
     task.carrot_m = {-20, 0, 2};
     const Plan away = plan(world, task);
     EXPECT_LT(away.command_m_s.x(), -1);
@@ -121,7 +121,7 @@ TEST_P(Planners, MoveAwayFromNearObstacle) {
 TEST_P(Planners, BrakeWhenEnclosed) {
     SolidWorld world;
     world.sphere({0, 0, 2}, 50);
-    PlanningTask task = eastwards(2);
+    PlanningTask task = flyingEast(2);
     const Plan braked = plan(world, task);
     EXPECT_EQ(braked.command_m_s, Eigen::Vector3d(0, 0, 0));
     EXPECT_TRUE(braked.is_emergency);
@@ -130,7 +130,7 @@ TEST_P(Planners, BrakeWhenEnclosed) {
 TEST_P(Planners, BrakeNearContact) {
     SolidWorld world;
     world.box({2.2f, -100, -100}, {3, 100, 100});
-    const Plan made = plan(world, eastwards(4));
+    const Plan made = plan(world, flyingEast(4));
     EXPECT_TRUE(made.is_emergency);
     EXPECT_EQ(made.command_m_s, Eigen::Vector3d(0, 0, 0));
 }
@@ -207,7 +207,7 @@ TEST_P(Planners, NeverCollideWithPerfectKnowledge) {
 TEST_P(Planners, AreDeterministic) {
     test::Random random(3);
     const SolidWorld world = test::forest(random, 0.1, SmallFlight{});
-    PlanningTask task = eastwards(3);
+    PlanningTask task = flyingEast(3);
     const Plan first = plan(world, task);
     EXPECT_EQ(first.command_m_s, plan(world, task).command_m_s);
     EXPECT_TRUE(first.candidates.empty());
@@ -226,11 +226,11 @@ TEST(MustStop, DependsOnStoppingDistance) {
     const auto stopsBefore = [](float wall_m) {
         SolidWorld world;
         world.box({wall_m, -100, -100}, {wall_m + 1, 100, 100});
-        return mustStop(world, eastwards(4));
+        return mustStop(world, flyingEast(4));
     };
     EXPECT_TRUE(stopsBefore(2.4f));  // needs at least 0.4 + 1.6 + 0.45 = 2.45 m
     EXPECT_FALSE(stopsBefore(3.0f));
-    EXPECT_FALSE(mustStop(SolidWorld().sphere({0.5f, 0, 2}, 0.2f), eastwards(0)));
+    EXPECT_FALSE(mustStop(SolidWorld().sphere({0.5f, 0, 2}, 0.2f), flyingEast(0)));
 }
 
 }  // namespace

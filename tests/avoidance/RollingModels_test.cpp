@@ -14,7 +14,7 @@ const std::vector<std::string> kNames{"R-Full-0.1", "R-Full-0.2", "D-Full"};
 const Eigen::Array3f kReach_m(15, 15, 6);
 constexpr float kMore_m = 4;
 
-float edgeOf(const std::string& name) { return name == "R-Full-0.1" ? 0.1f : 0.2f; }
+float rollingEdgeOf(const std::string& name) { return name == "R-Full-0.1" ? 0.1f : 0.2f; }
 
 std::unique_ptr<WorldModel> make(const std::string& name, const FlightPace& pace = {}) {
     return makeWorldModel(name, {{}, nullptr, pace, ModelDistance::AsStored});
@@ -81,7 +81,7 @@ TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {
 /// Compares with an OctoMap, which has no box and stores floats.
 TEST(RollingModels, GridMatchesOctoMap) {
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
-        const float edge = edgeOf(name);
+        const float edge = rollingEdgeOf(name);
         simulation::Random random(4);
         observations::ScanMapOptions options;
         options.content = observations::MapContent::Full;

@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 namespace {
 
 /// An obstacle at x = 0 that moves along x at 1 m/s.
-class WallModel : public WorldModel {
+class FixedWall : public WorldModel {
  public:
     void update(const observations::MappedScan& scan) override { updated_s = scan.time_s; }
     float clearance_m(const Eigen::Vector3f& at) const override {
@@ -26,7 +26,7 @@ class WallModel : public WorldModel {
 };
 
 UnbiasedModel wallWith(float bias_m) {
-    return UnbiasedModel(std::make_unique<WallModel>(), bias_m);
+    return UnbiasedModel(std::make_unique<FixedWall>(), bias_m);
 }
 
 TEST(UnbiasedModel, SubtractsBias) {
@@ -66,8 +66,8 @@ TEST(UnbiasedModel, LimitedClearanceIsCutOff) {
 }
 
 TEST(UnbiasedModel, ForwardsOtherQueries) {
-    auto inner = std::make_unique<WallModel>();
-    const WallModel* seen = inner.get();
+    auto inner = std::make_unique<FixedWall>();
+    const FixedWall* seen = inner.get();
     UnbiasedModel model(std::move(inner), 0.1f);
     observations::MappedScan scan;
     scan.time_s = 7;

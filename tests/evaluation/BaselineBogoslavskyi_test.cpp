@@ -15,14 +15,12 @@ namespace {
 using test::LabelledScan;
 using test::SimpleScene;
 
-const SensorModel kSensor = sensorModel("VLP-16");
+const SensorModel kVlp16 = sensorModel("VLP-16");
 
-Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
-    return test::scanOf(kSensor, points_m);
-}
+Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) { return test::scanOf(kVlp16, points_m); }
 
 Eigen::Vector3f at(int row, double azimuth_deg, double range_m) {
-    return test::onBeam(kSensor, row, azimuth_deg, range_m);
+    return test::onBeam(kVlp16, row, azimuth_deg, range_m);
 }
 
 TEST(SavitzkyGolay, UsesPublishedWeights) {
@@ -75,8 +73,8 @@ double recall(const LabelledScan& scene, const std::vector<Label>& labels, Label
 TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
     const SimpleScene scene =
         test::sceneOf({{{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}}}, {{6.0, 3.0, 0.3, 4.0}});
-    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
-    const std::vector<Label> labels = bogoslavskyiLabels(labelled.scan, kSensor);
+    const LabelledScan labelled = test::scanScene(scene, kVlp16, 870, {0.0, 0.0, 1.5});
+    const std::vector<Label> labels = bogoslavskyiLabels(labelled.scan, kVlp16);
     EXPECT_EQ(recall(labelled, labels, Label::Roi), 1.0);
     // The slope to an obstacle is stored in the ground row at its foot.
     EXPECT_GT(recall(labelled, labels, Label::Rou), 0.95);
@@ -85,24 +83,24 @@ TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
 TEST(BogoslavskyiLabels, SmoothsAngles) {
     // The angles have a step at a box's foot, which smoothing spreads to its neighbours.
     const SimpleScene scene = test::sceneOf({{{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}}});
-    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
+    const LabelledScan labelled = test::scanScene(scene, kVlp16, 870, {0.0, 0.0, 1.5});
     BogoslavskyiOptions rough;
     rough.smoothing_window = 1;
-    EXPECT_NE(bogoslavskyiLabels(labelled.scan, kSensor),
-              bogoslavskyiLabels(labelled.scan, kSensor, rough));
+    EXPECT_NE(bogoslavskyiLabels(labelled.scan, kVlp16),
+              bogoslavskyiLabels(labelled.scan, kVlp16, rough));
     rough.smoothing_window = 4;
-    EXPECT_THROW(bogoslavskyiLabels(labelled.scan, kSensor, rough), std::invalid_argument);
+    EXPECT_THROW(bogoslavskyiLabels(labelled.scan, kVlp16, rough), std::invalid_argument);
 }
 
 TEST(BogoslavskyiLabels, StartsFromFlatLowestPixels) {
     // A surrounding step, steeper than 45 degrees at the lowest beam, so nothing starts there.
     const Eigen::Vector3f low = at(0, 10.0, 5.0), high = at(1, 10.0, 5.0);
     std::vector<Eigen::Vector3f> column{low, high};
-    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Roi));
+    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kVlp16), std::vector<Label>(2, Label::Roi));
     // Level ground: both pixels have the same height.
     const double rise = std::sin(radians(15.0)) / std::sin(radians(13.0));
     column[1] = at(1, 10.0, 5.0 * rise);
-    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Rou));
+    EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kVlp16), std::vector<Label>(2, Label::Rou));
 }
 
 TEST(BogoslavskyiLabels, GrowsUpToAngleDifference) {
@@ -116,7 +114,7 @@ TEST(BogoslavskyiLabels, GrowsUpToAngleDifference) {
         const double range_m = (z_m - t * from_m) / (std::sin(e) - t * std::cos(e));
         return bogoslavskyiLabels(scanOf({at(0, 0.0, groundRange(-15.0)),
                                           at(1, 0.0, groundRange(-13.0)), at(2, 0.0, range_m)}),
-                                  kSensor);
+                                  kVlp16);
     };
     EXPECT_EQ(labelsOf(4.5), std::vector<Label>(3, Label::Rou));
     EXPECT_EQ(labelsOf(5.5), (std::vector<Label>{Label::Rou, Label::Roi, Label::Roi}));
@@ -124,9 +122,9 @@ TEST(BogoslavskyiLabels, GrowsUpToAngleDifference) {
 
 TEST(BogoslavskyiLabels, IgnoresFarAndUnseenReturns) {
     const Scan scan = scanOf({at(9, 0.0, 25.0), at(9, 90.0, 0.1), {0.0f, 0.0f, 0.0f}});
-    EXPECT_EQ(bogoslavskyiLabels(scan, kSensor),
+    EXPECT_EQ(bogoslavskyiLabels(scan, kVlp16),
               (std::vector<Label>{Label::Rou, Label::Unclassified, Label::Unclassified}));
-    EXPECT_TRUE(bogoslavskyiLabels({}, kSensor).empty());
+    EXPECT_TRUE(bogoslavskyiLabels({}, kVlp16).empty());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 using test::LabelledScan;
 using test::SimpleScene;
 
-const SensorModel kSensor = sensorModel("VLP-16");
+const SensorModel kZermasSensor = sensorModel("VLP-16");
 
 /// Share of returns within the zone that are labelled correctly.
 double shareRight(const LabelledScan& scene, const std::vector<Label>& labels) {
@@ -29,15 +29,15 @@ double shareRight(const LabelledScan& scene, const std::vector<Label>& labels) {
     return static_cast<double>(right) / all;
 }
 
-Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
-    return test::scanOf(kSensor, points_m);
+Scan zermasScanOf(const std::vector<Eigen::Vector3f>& points_m) {
+    return test::scanOf(kZermasSensor, points_m);
 }
 
 TEST(ZermasGroundFit, SeparatesObstaclesFromFlatGround) {
     const SimpleScene scene =
         test::sceneOf({{{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}}}, {{6.0, 3.0, 0.3, 4.0}});
-    const LabelledScan labelled = test::scanScene(scene, kSensor, 720, {0.0, 0.0, 1.5});
-    const std::vector<Label> labels = zermasLabels(labelled.scan, kSensor);
+    const LabelledScan labelled = test::scanScene(scene, kZermasSensor, 720, {0.0, 0.0, 1.5});
+    const std::vector<Label> labels = zermasLabels(labelled.scan, kZermasSensor);
     // Only returns near the height threshold Th_dist may be wrong.
     EXPECT_GT(shareRight(labelled, labels), 0.97);
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -69,7 +69,7 @@ TEST(ZermasGroundFit, FitsTiltedPlane) {
             points_m.push_back(onPlane(8.0, 0.0, 0.3 * height));
             truth.push_back(Label::Roi);
         }
-        EXPECT_EQ(zermasLabels(scanOf(points_m), kSensor), truth) << uphill_deg;
+        EXPECT_EQ(zermasLabels(zermasScanOf(points_m), kZermasSensor), truth) << uphill_deg;
     }
 }
 
@@ -84,7 +84,8 @@ TEST(ZermasGroundFit, FitsOnePlanePerSegment) {
     ZermasOptions options;
     const auto groundWith = [&](int segments) {
         options.segments = segments;
-        const std::vector<Label> labels = zermasLabels(scanOf(points_m), kSensor, options);
+        const std::vector<Label> labels =
+            zermasLabels(zermasScanOf(points_m), kZermasSensor, options);
         return static_cast<double>(std::count(labels.begin(), labels.end(), Label::Rou)) /
                static_cast<double>(labels.size());
     };
@@ -93,18 +94,18 @@ TEST(ZermasGroundFit, FitsOnePlanePerSegment) {
 }
 
 TEST(ZermasGroundFit, IgnoresFarAndUnseenReturns) {
-    const Scan scan = scanOf({{25.0f, 0.0f, 2.0f}, {0.1f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}});
-    EXPECT_EQ(zermasLabels(scan, kSensor),
+    const Scan scan = zermasScanOf({{25.0f, 0.0f, 2.0f}, {0.1f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}});
+    EXPECT_EQ(zermasLabels(scan, kZermasSensor),
               (std::vector<Label>{Label::Rou, Label::Unclassified, Label::Unclassified}));
-    EXPECT_EQ(zermasGroundFit(scan, kSensor), std::vector<Label>(3, Label::Unclassified));
+    EXPECT_EQ(zermasGroundFit(scan, kZermasSensor), std::vector<Label>(3, Label::Unclassified));
 }
 
 TEST(ZermasGroundFit, LabelsRoiWithoutPlane) {
-    const Scan line = scanOf({{3.0f, 0.0f, -1.0f}, {4.0f, 0.0f, -1.0f}, {5.0f, 0.0f, -1.0f}});
+    const Scan line = zermasScanOf({{3.0f, 0.0f, -1.0f}, {4.0f, 0.0f, -1.0f}, {5.0f, 0.0f, -1.0f}});
     ZermasOptions options;
     options.segments = 1;
-    EXPECT_EQ(zermasLabels(line, kSensor, options), std::vector<Label>(3, Label::Roi));
-    EXPECT_EQ(zermasLabels(scanOf({{3.0f, 0.0f, -1.0f}}), kSensor),
+    EXPECT_EQ(zermasLabels(line, kZermasSensor, options), std::vector<Label>(3, Label::Roi));
+    EXPECT_EQ(zermasLabels(zermasScanOf({{3.0f, 0.0f, -1.0f}}), kZermasSensor),
               std::vector<Label>(1, Label::Roi));
 }
 
@@ -113,7 +114,7 @@ TEST(ZermasGroundFit, RejectsCountsBelowOne) {
          {&ZermasOptions::segments, &ZermasOptions::iterations, &ZermasOptions::lowest_points}) {
         ZermasOptions options;
         options.*count = 0;
-        EXPECT_THROW(zermasLabels({}, kSensor, options), std::invalid_argument);
+        EXPECT_THROW(zermasLabels({}, kZermasSensor, options), std::invalid_argument);
     }
 }
 

@@ -24,12 +24,12 @@ PinholeCamera smallCamera() {
     return camera;
 }
 
-Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
+Scan cameraScanOf(const std::vector<Eigen::Vector3f>& points_m) {
     return test::scanOf(sensorModel("VLP-16"), points_m);
 }
 
 void expectAt(const PinholeCamera& camera, const Eigen::Vector3f& point_m, int u, int v) {
-    const auto pixels = visibleReturns(camera, scanOf({point_m}));
+    const auto pixels = visibleReturns(camera, cameraScanOf({point_m}));
     ASSERT_EQ(pixels.size(), 1u) << point_m.transpose();
     EXPECT_EQ(pixels[0].u, u) << point_m.transpose();
     EXPECT_EQ(pixels[0].v, v) << point_m.transpose();
@@ -53,14 +53,15 @@ TEST(Camera, IgnoresReturnsOutsideView) {
     EXPECT_TRUE(
         visibleReturns(
             smallCamera(),
-            scanOf(
+            cameraScanOf(
                 {{-5, 0, 0}, {0, 5, 0}, {5, 6, 0}, {5, -6, 0}, {5, 0, 5}, {kNan, 0, 0}, {0, 0, 0}}))
             .empty());
     EXPECT_TRUE(visibleReturns(smallCamera(), Scan()).empty());
 }
 
 TEST(Camera, KeepsNearestReturnPerPixel) {
-    const auto pixels = visibleReturns(smallCamera(), scanOf({{9, 0, 0}, {3, 0, 0}, {6, 0, 0}}));
+    const auto pixels =
+        visibleReturns(smallCamera(), cameraScanOf({{9, 0, 0}, {3, 0, 0}, {6, 0, 0}}));
     ASSERT_EQ(pixels.size(), 1u);
     EXPECT_EQ(pixels[0].index, 1u);
 }
@@ -75,13 +76,13 @@ TEST(Camera, AppliesPose) {
     expectAt(camera, {0, 5, 0}, 4, 3);  // the camera looks to the left
 }
 
-const char* const kFile =
+const char* const kCameraFile =
     "width: 9\nheight: 7\nfx: 4\nfy: 4\ncx: 4\ncy: 3\nposition_m: [0.1, 0, -0.2]\n"
     "yaw_deg: 0\npitch_deg: 45\nroll_deg: 0\n";
 
 TEST(CameraFile, PositivePitchLooksDown) {
     const test::TemporaryFolder folder;
-    PinholeCamera camera = readCamera(folder.write("camera.yaml", kFile));
+    PinholeCamera camera = readCamera(folder.write("camera.yaml", kCameraFile));
     EXPECT_EQ(camera.width_px, 9);
     EXPECT_EQ(camera.height_px, 7);
     EXPECT_EQ(camera.pose.translation(), Eigen::Vector3d(0.1, 0, -0.2));
@@ -91,7 +92,7 @@ TEST(CameraFile, PositivePitchLooksDown) {
 
 TEST(CameraFile, ShippedFileLooksForward) {
     const PinholeCamera camera = readCamera(HAGEN_SOURCE_DIR "/config/camera_forward.yaml");
-    const auto pixels = visibleReturns(camera, scanOf({{10, 0, 0}}));
+    const auto pixels = visibleReturns(camera, cameraScanOf({{10, 0, 0}}));
     ASSERT_EQ(pixels.size(), 1u);
     EXPECT_NEAR(pixels[0].u, camera.width_px / 2, 1);
     EXPECT_NEAR(pixels[0].v, camera.height_px / 2, 1);
@@ -100,7 +101,7 @@ TEST(CameraFile, ShippedFileLooksForward) {
 TEST(CameraFile, ReportsWrongEntries) {
     const test::TemporaryFolder folder;
     const auto message = [&](const std::string& from, const std::string& to) {
-        std::string text = kFile;
+        std::string text = kCameraFile;
         text.replace(text.find(from), from.size(), to);
         return test::messageOf([&] { readCamera(folder.write("camera.yaml", text)); });
     };

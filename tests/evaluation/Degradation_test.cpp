@@ -7,6 +7,7 @@
 #include "evaluation/DegradedScans.h"
 #include "evaluation/TrueHeights.h"
 
+#include "evaluation/Labels.h"
 #include "support/PointScan.h"
 #include "support/Program.h"
 #include "support/Random.h"
@@ -17,9 +18,7 @@ namespace {
 using Eigen::Vector3f;
 using testing::HasSubstr;
 
-constexpr auto G = Label::Rou, O = Label::Roi, U = Label::Unclassified;
-
-const SensorModel kSensor = sensorModel("VLP-16");
+const SensorModel kDegradedSensor = sensorModel("VLP-16");
 constexpr int kColumns = 360;
 
 /// Returns at the centres of all pixels, with random ranges and truth. `kinds` and `objects` hold
@@ -29,23 +28,23 @@ GroundTruthScan randomScan(unsigned seed = 1) {
     std::vector<Vector3f> points_m;
     GroundTruthScan scan;
     for (int column = 0; column < kColumns; ++column) {
-        for (int row = 0; row < kSensor.rows(); ++row) {
+        for (int row = 0; row < kDegradedSensor.rows(); ++row) {
             points_m.push_back(
-                test::onBeam(kSensor, row, column - 179.5, double(random.real(2, 30))));
+                test::onBeam(kDegradedSensor, row, column - 179.5, double(random.real(2, 30))));
             scan.truth.push_back(random.chance(0.5) ? G : O);
             scan.kinds.push_back(static_cast<std::uint16_t>(scan.kinds.size()));
             scan.objects.push_back(static_cast<std::uint32_t>(scan.objects.size()));
             scan.heights_m.push_back(random.real(0, 3));
         }
     }
-    scan.input.scan = test::scanOf(kSensor, points_m);
+    scan.input.scan = test::scanOf(kDegradedSensor, points_m);
     scan.input.scan.time_s.assign(points_m.size(), 0.05f);
     scan.name = "scan";
     return scan;
 }
 
 GroundTruthScan degraded(const GroundTruthScan& scan, const std::string& text, unsigned seed = 1) {
-    return Degradation(text).apply(scan, kSensor, seed);
+    return Degradation(text).apply(scan, kDegradedSensor, seed);
 }
 
 Vector3f point(const GroundTruthScan& scan, std::size_t i) {
@@ -152,7 +151,7 @@ TEST(Degradation, RainShortensRangesUnscored) {
 
 TEST(Degradation, KeepsReturnsNearerThanDrops) {
     GroundTruthScan scan;
-    scan.input.scan = test::scanOf(kSensor, {test::onBeam(kSensor, 5, 0, 0.4)});
+    scan.input.scan = test::scanOf(kDegradedSensor, {test::onBeam(kDegradedSensor, 5, 0, 0.4)});
     scan.truth = {O};
     EXPECT_EQ(degraded(scan, "rain=100").truth[0], O);
     EXPECT_GT(degraded(scan, "noise_m=10").input.scan.range_m[0], 0.0f);
@@ -171,7 +170,7 @@ void expectTilted(const std::string& text, const Attitude& attitude) {
         kept.insert(i);
         ASSERT_LT((level * point(tilted, k) - point(scan, i)).norm(), 1e-4f);
         const float elevation_rad = std::asin(tilted.input.scan.z_m[k] / point(tilted, k).norm());
-        ASSERT_EQ(tilted.input.scan.row[k], kSensor.nearestRow(elevation_rad));
+        ASSERT_EQ(tilted.input.scan.row[k], kDegradedSensor.nearestRow(elevation_rad));
     }
     for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
         const Vector3f seen_m = level.transpose() * point(scan, i);
@@ -210,9 +209,9 @@ TEST(Degradation, UpsideDownMatchesMirroredSensor) {
     EXPECT_EQ(turned.truth, scan.truth);
     ASSERT_TRUE(turned.input.map_from_sensor.has_value());
     Scan located = turned.input.scan;  // rows from its coordinates
-    locateBeams(mirrored(kSensor), located);
+    locateBeams(mirrored(kDegradedSensor), located);
     EXPECT_EQ(located.row, turned.input.scan.row);
-    EXPECT_NO_THROW(checkLocated(turned.input.scan, mirrored(kSensor)));
+    EXPECT_NO_THROW(checkLocated(turned.input.scan, mirrored(kDegradedSensor)));
     for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
         ASSERT_LT((*turned.input.map_from_sensor * point(turned, i) - point(scan, i)).norm(),
                   1e-5f);
@@ -222,7 +221,7 @@ TEST(Degradation, UpsideDownMatchesMirroredSensor) {
 }
 
 TEST(Degradation, KeepsReturnsOfDownwardSensor) {
-    SensorModel down = kSensor;
+    SensorModel down = kDegradedSensor;
     down.elevations_rad = {-1.5708f, -1.0472f, -0.5236f, 0};
     auto scan = randomScan();
     Scan& returns = scan.input.scan;
@@ -241,7 +240,7 @@ TEST(Degradation, LimitsFieldOfView) {
     expectPart(scan, degraded(scan, "fov_deg=180"),
                [&](std::size_t i) { return scan.input.scan.x_m[i] > 0; });
     const auto elevation_deg = [&](std::size_t i) {
-        return degrees(double(kSensor.elevations_rad[scan.input.scan.row[i]]));
+        return degrees(double(kDegradedSensor.elevations_rad[scan.input.scan.row[i]]));
     };
     expectPart(scan, degraded(scan, "above_deg=-4"),
                [&](std::size_t i) { return elevation_deg(i) > -4; });
@@ -256,8 +255,9 @@ TEST(Degradation, SecondReturnsLieBehindEdges) {
     const std::size_t before = scan.kinds.size();
     ASSERT_GT(dual.kinds.size(), before);
     const auto neighbour = [&](std::size_t i, int side) {  // same row, next column
-        const auto column = static_cast<int>(i) / kSensor.rows() + side + kColumns;
-        return static_cast<std::size_t>(column % kColumns * kSensor.rows()) + i % kSensor.rows();
+        const auto column = static_cast<int>(i) / kDegradedSensor.rows() + side + kColumns;
+        return static_cast<std::size_t>(column % kColumns * kDegradedSensor.rows()) +
+               i % kDegradedSensor.rows();
     };
     std::size_t candidates = 0;
     for (std::size_t i = 0; i < before; ++i) {
@@ -290,9 +290,9 @@ TEST(Degradation, SecondReturnsNeedNeighbours) {
     std::vector<Vector3f> points_m;
     for (int column = 0; column < 20; ++column) {
         const double azimuth_deg = column < 10 ? column : column + 10;
-        points_m.push_back(test::onBeam(kSensor, 8, azimuth_deg, column < 10 ? 5 : 15));
+        points_m.push_back(test::onBeam(kDegradedSensor, 8, azimuth_deg, column < 10 ? 5 : 15));
     }
-    scan.input.scan = test::scanOf(kSensor, points_m);
+    scan.input.scan = test::scanOf(kDegradedSensor, points_m);
     scan.truth.assign(points_m.size(), O);
     for (unsigned seed = 0; seed < 50; ++seed) {
         EXPECT_EQ(degraded(scan, "dual_return", seed).truth.size(), scan.truth.size());
@@ -302,7 +302,7 @@ TEST(Degradation, SecondReturnsNeedNeighbours) {
 TEST(Degradation, DoubleRateHalvesColumns) {
     const auto scan = randomScan();
     const auto fast = degraded(scan, "rate_hz=20");
-    expectPart(scan, fast, [&](std::size_t i) { return i / kSensor.rows() % 2 == 0; });
+    expectPart(scan, fast, [&](std::size_t i) { return i / kDegradedSensor.rows() % 2 == 0; });
     const auto faster = degraded(scan, "rate_hz=40");
     EXPECT_EQ(faster.kinds.size(), scan.kinds.size() / 4);
 }
@@ -322,9 +322,9 @@ TEST(Degradation, RateKeepsDualReturns) {
 
 TEST(Degradation, KeepsEmptyScansEmpty) {
     GroundTruthScan scan;
-    scan.input.scan = test::scanOf(kSensor, {});
-    for (const Degradation& degradation : standardDegradations(kSensor)) {
-        const auto empty = degradation.apply(scan, kSensor, 1);
+    scan.input.scan = test::scanOf(kDegradedSensor, {});
+    for (const Degradation& degradation : standardDegradations(kDegradedSensor)) {
+        const auto empty = degradation.apply(scan, kDegradedSensor, 1);
         EXPECT_EQ(empty.input.scan.size(), 0u) << degradation.name();
     }
 }
@@ -332,7 +332,7 @@ TEST(Degradation, KeepsEmptyScansEmpty) {
 TEST(Degradation, KeepsReturnsWithoutRange) {
     auto scan = randomScan();
     scan.input.scan.x_m[3] = std::nanf("");
-    locateBeams(kSensor, scan.input.scan);
+    locateBeams(kDegradedSensor, scan.input.scan);
     for (const char* text : {"noise_m=0.1", "rain=3", "dual_return", "upside_down"}) {
         const auto result = degraded(scan, text);
         EXPECT_GE(result.truth.size(), scan.truth.size()) << text;
@@ -358,7 +358,8 @@ TEST(Degradation, StandardSetsFitSensor) {
 }
 
 std::string problemOf(const std::string& text) {
-    return test::messageOf<std::invalid_argument>([&] { Degradation(text).checkSensor(kSensor); });
+    return test::messageOf<std::invalid_argument>(
+        [&] { Degradation(text).checkSensor(kDegradedSensor); });
 }
 
 TEST(Degradation, RejectsUnknownNames) {
@@ -393,7 +394,7 @@ class OneScan : public LabelledScanSource {
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return 3; }
     const LabelMap& kinds() const override { return kinds_; }
-    SensorModel sensor() const override { return kSensor; }
+    SensorModel sensor() const override { return kDegradedSensor; }
     std::vector<Method> makeMethods() const override { return {{"none", {}}}; }
 
  private:

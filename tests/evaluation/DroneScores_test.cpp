@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "evaluation/Labels.h"
 #include "support/PointScan.h"
 #include "support/Random.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr auto G = Label::Rou, O = Label::Roi, U = Label::Unclassified;
 constexpr float kGround_m = -2;
 
 GroundTruthScan scanOf(const std::vector<Vector3f>& points_m, const std::vector<Label>& truth) {

@@ -1,14 +1,13 @@
 #include <gmock/gmock.h>
 #include <hagen/evaluation/Evaluation.h>
 
+#include "evaluation/Labels.h"
 #include "support/Program.h"
 
 namespace hagen::evaluation {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr auto G = Label::Rou, O = Label::Roi;
 
 std::vector<Method> allRoiAndAllRou() {
     const auto all = [](Label label) {

@@ -3,12 +3,13 @@
 
 #include <stdexcept>
 
+#include "evaluation/Labels.h"
+
 namespace hagen::evaluation {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr auto U = Label::Unclassified, G = Label::Rou, O = Label::Roi;
 const LabelMap kKinds{{5, {"wire", O}}, {3, {"tree", O}}, {1, {"terrain", G}}};
 
 GroundTruthScan scanAt(const std::vector<float>& ranges_m, const std::vector<Label>& truth) {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "evaluation/Labels.h"
+
 namespace hagen::evaluation {
 namespace {
-
-constexpr auto U = Label::Unclassified, G = Label::Rou, O = Label::Roi;
 
 Scores scoresOf(const std::vector<Label>& truth, const std::vector<Label>& found) {
     Scores scores;

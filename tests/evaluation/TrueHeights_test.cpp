@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluation/Labels.h"
 #include "support/PointScan.h"
 #include "support/Random.h"
 
@@ -14,9 +15,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr auto G = Label::Rou, O = Label::Roi, U = Label::Unclassified;
-
-GroundTruthScan scanOf(const std::vector<Vector3f>& points_m, const std::vector<Label>& truth) {
+GroundTruthScan truthOf(const std::vector<Vector3f>& points_m, const std::vector<Label>& truth) {
     GroundTruthScan scan;
     scan.input.scan = test::scanOf(sensorModel("VLP-16"), points_m);
     scan.truth = truth;
@@ -73,8 +72,8 @@ float plainHeight(const GroundTruthScan& scan, std::size_t obstacle) {
 }
 
 TEST(TrueHeights, UseNearbyTrueGround) {
-    const auto scan = scanOf({{4, 0, -2.0f}, {5, 1, -2.1f}, {5, 0, -1.0f}, {60, 0, 7}, {5, 1, -1}},
-                             {G, G, O, G, U});
+    const auto scan = truthOf({{4, 0, -2.0f}, {5, 1, -2.1f}, {5, 0, -1.0f}, {60, 0, 7}, {5, 1, -1}},
+                              {G, G, O, G, U});
     const std::vector<float> heights_m = heightsOf(scan);
     EXPECT_FLOAT_EQ(heights_m[2], 1.0f);  // above the upper of two medians
     for (const std::size_t i : {0, 1, 3, 4}) EXPECT_TRUE(std::isnan(heights_m[i])) << i;
@@ -90,7 +89,7 @@ TEST(TrueHeights, MatchBruteForce) {
             points_m.push_back({random.real(-15, 15), random.real(-4, 4), random.real(-3, 3)});
             truth.push_back(points_m.back().x() > 6 || random.chance(0.3) ? O : G);
         }
-        const auto scan = scanOf(points_m, truth);
+        const auto scan = truthOf(points_m, truth);
         const std::vector<float> heights_m = heightsOf(scan);
         for (std::size_t i = 0; i < truth.size(); ++i) {
             if (truth[i] != O) continue;
@@ -102,20 +101,20 @@ TEST(TrueHeights, MatchBruteForce) {
 }
 
 TEST(TrueHeights, AreInfiniteWithoutGround) {
-    EXPECT_EQ(heightsOf(scanOf({{5, 0, -1}}, {O}))[0], std::numeric_limits<float>::infinity());
-    EXPECT_TRUE(heightsOf(scanOf({}, {})).empty());
+    EXPECT_EQ(heightsOf(truthOf({{5, 0, -1}}, {O}))[0], std::numeric_limits<float>::infinity());
+    EXPECT_TRUE(heightsOf(truthOf({}, {})).empty());
 }
 
 /// Squared distances this large are integers as floats.
 TEST(TrueHeights, UseDistantGround) {
     for (const float far_m : {1000.0f, 1500.0f, 2000.0f, 5000.0f, 9999.0f}) {
-        const auto heights = heightsOf(scanOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
+        const auto heights = heightsOf(truthOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
         EXPECT_NEAR(heights[1], 1, 1e-5) << far_m;
     }
 }
 
 TEST(TrueHeights, SkipReturnsBeyondRange) {
-    const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {7, 0, 0}}, {G, O, O});
+    const auto scan = truthOf({{4, 0, -2}, {5, 0, 0}, {7, 0, 0}}, {G, O, O});
     const std::vector<float> heights_m = heightsOf(scan, 6);
     EXPECT_FLOAT_EQ(heights_m[1], 2.0f);
     EXPECT_TRUE(std::isnan(heights_m[2]));
@@ -123,7 +122,7 @@ TEST(TrueHeights, SkipReturnsBeyondRange) {
 
 // Very distant returns have no cell; sanitizers would report the overflow of a cell index.
 TEST(TrueHeights, SkipImplausiblyFarReturns) {
-    const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
+    const auto scan = truthOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
     const std::vector<float> heights_m = heightsOf(scan, 1e6f);
     EXPECT_FLOAT_EQ(heights_m[1], 2.0f);
     EXPECT_TRUE(std::isnan(heights_m[2]));
@@ -136,7 +135,7 @@ TEST(TrueHeights, UseTrueHorizonOfTiltedSensor) {
         Eigen::AngleAxisf(static_cast<float>(radians(30)), Vector3f::UnitX()).toRotationMatrix();
     std::vector<Vector3f> tilted_m;
     for (const Vector3f& point_m : points_m) tilted_m.push_back(turn.transpose() * point_m);
-    auto scan = scanOf(tilted_m, {G, G, O});
+    auto scan = truthOf(tilted_m, {G, G, O});
     EXPECT_GT(std::abs(heightsOf(scan)[2] - 0.8f), 0.05f);
     scan.input.map_from_sensor = turn;
     EXPECT_NEAR(heightsOf(scan)[2], 0.8f, 1e-5f);
@@ -146,7 +145,8 @@ TEST(TrueHeights, UseTrueHorizonOfTiltedSensor) {
 }
 
 TEST(TrueHeights, IgnoreNonFiniteReturns) {
-    auto scan = scanOf({{4, 0, -2}, {std::nanf(""), 0, -1}, {3e8f, 0, 0}, {5, 0, 0}}, {G, G, G, O});
+    auto scan =
+        truthOf({{4, 0, -2}, {std::nanf(""), 0, -1}, {3e8f, 0, 0}, {5, 0, 0}}, {G, G, G, O});
     EXPECT_FLOAT_EQ(heightsOf(scan)[3], 2.0f);
 }
 

@@ -24,19 +24,19 @@ std::vector<Scan> drive(const SensorModel& sensor, int columns) {
 }
 
 /// All data of a result.
-struct Outcome {
+struct Segmented {
     Image<float> smoothed_rad, height_m;
     std::vector<Label> own_label, label;
     std::vector<std::int32_t> component;
     std::vector<std::uint32_t> roi;
 };
 
-Outcome outcomeOf(const SegmentationResult& r) {
+Segmented outcomeOf(const SegmentationResult& r) {
     return {r.smoothed_rad,  r.ground.height_m,   r.own_labels.label,
             r.returns.label, r.returns.component, r.returns.roi};
 }
 
-void expectSame(const Outcome& a, const Outcome& b) {
+void expectSame(const Segmented& a, const Segmented& b) {
     EXPECT_TRUE(test::same(a.smoothed_rad, b.smoothed_rad));
     EXPECT_TRUE(test::same(a.height_m, b.height_m));
     EXPECT_EQ(a.own_label, b.own_label);
@@ -50,7 +50,7 @@ struct Drive {
     SensorModel sensor;
     Options options;
     std::vector<Scan> scans;
-    std::vector<Outcome> alone;
+    std::vector<Segmented> alone;
 
     Drive(const std::string& name, const Options& with, int columns)
         : sensor(sensorModel(name)), options(test::numbered(with)), scans(drive(sensor, columns)) {
@@ -85,7 +85,7 @@ TEST(FilterWorkspace, FiltersInOneThreadAreIndependent) {
 
 TEST(FilterWorkspace, FiltersInThreadsAreIndependent) {
     const std::vector<Drive> drives = differentDrives();
-    std::vector<std::vector<Outcome>> found(drives.size());
+    std::vector<std::vector<Segmented>> found(drives.size());
     std::vector<std::thread> threads;
     for (std::size_t k = 0; k < drives.size(); ++k) {
         threads.emplace_back([&, k] {

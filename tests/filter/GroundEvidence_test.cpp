@@ -14,7 +14,7 @@ using test::pixelsAt;
 
 constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
 
-GroundEvidenceWorkspace work;  // reused, as in a filter
+GroundEvidenceWorkspace evidence_work;  // reused, as in a filter
 
 /// Flags of the level pixels in columns of `rows` pixels, lowest row first.
 std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
@@ -22,7 +22,7 @@ std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
     Image<std::uint8_t> is_level;
     PixelCells cells;
     findPixelCells(pixels, cells);
-    findLevelPixels(pixels, cells, is_level, work);
+    findLevelPixels(pixels, cells, is_level, evidence_work);
     EXPECT_EQ(is_level.rows(), pixels.x_m.rows());
     EXPECT_EQ(is_level.cols(), pixels.x_m.cols());
     return {is_level.data(), is_level.data() + is_level.size()};

@@ -12,7 +12,7 @@ namespace {
 
 using test::pixelsAt;
 
-Attitude randomAttitude(test::Random& random) {
+Attitude anyAttitude(test::Random& random) {
     const float max_rad = static_cast<float>(radians(15));
     return {random.real(-max_rad, max_rad), random.real(-max_rad, max_rad)};
 }
@@ -43,16 +43,16 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
-GroundFrameWorkspace work;  // reused, as in a filter
+GroundFrameWorkspace buffers;  // reused, as in a filter
 
 TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
     test::Random random(70);
     for (int round = 0; round < 20; ++round) {
-        const Attitude attitude = randomAttitude(random);
+        const Attitude attitude = anyAttitude(random);
         const float below_m = random.real(0.5f, 10.0f);
         const auto points = ringsOnPlane(attitude, below_m);
         for (const Attitude& start : {Attitude{}, attitude}) {
-            const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), start, work);
+            const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), start, buffers);
             EXPECT_LT(greatestHeight(frame, points), 0.01f);
             EXPECT_NEAR(frame.translation().z(), below_m, 0.01f);
             EXPECT_NEAR(frame.translation().head<2>().norm(), 0, 1e-5);
@@ -66,7 +66,7 @@ TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
 TEST(GroundFrame, IgnoresWallsAndCrowns) {
     test::Random random(71);
     for (int round = 0; round < 20; ++round) {
-        const Attitude attitude = randomAttitude(random);
+        const Attitude attitude = anyAttitude(random);
         const Eigen::Vector3f normal = levelFromSensor(attitude).transpose().col(2);
         const auto ground = ringsOnPlane(attitude, 3);
         auto points = ground;
@@ -85,7 +85,7 @@ TEST(GroundFrame, IgnoresWallsAndCrowns) {
             ++raised;
         }
         ASSERT_GT(raised, 0.3 * static_cast<double>(points.size()));
-        const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), attitude, work);
+        const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), attitude, buffers);
         for (const Eigen::Vector3f& p : ground) {
             const float height_m = (frame * p).z();
             ASSERT_LT(std::abs(height_m), 0.02f + 0.01f * p.norm());
@@ -101,7 +101,7 @@ TEST(GroundFrame, IsBelowSensorUnderCrowns) {
         const bool is_ground = std::hypot(x_m, y_m) < 5;  // crowns hide the rest
         points.emplace_back(x_m, y_m, is_ground ? -0.3f : 1 + 0.1f * static_cast<float>(i % 50));
     }
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), Attitude{}, work);
+    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), Attitude{}, buffers);
     EXPECT_NEAR(frame.translation().z(), 0.3f, 0.1f);
     EXPECT_GT(frame.linear()(2, 2), 0.99f);
 }
@@ -117,7 +117,7 @@ TEST(GroundFrame, IgnoresStraysFarAndEmptyPixels) {
         points.emplace_back(41, static_cast<float>(step) - 50, -15);
     }
     points.insert(points.end(), 1000, test::kEmptyPixel);
-    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 0.05f);
+    EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, buffers), ground), 0.05f);
 }
 
 TEST(GroundFrame, IgnoresCrownsAboveTheLimit) {
@@ -128,7 +128,7 @@ TEST(GroundFrame, IgnoresCrownsAboveTheLimit) {
     }
     const auto errorWith = [&](float max_m) {
         const Eigen::Isometry3f frame =
-            fitGroundFrame(pixelsAt(points), Attitude{}, work, nullptr, max_m);
+            fitGroundFrame(pixelsAt(points), Attitude{}, buffers, nullptr, max_m);
         return greatestHeight(frame, ground);
     };
     EXPECT_LT(errorWith(0), 0.05f);
@@ -140,31 +140,33 @@ TEST(GroundFrame, WeighsPointsAboveLess) {
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
         const PixelPoints pixels = pixelsAt(points, 49);  // points per side of the square
-        return std::abs(fitGroundFrame(pixels, Attitude{}, work).translation().z() - 2);
+        return std::abs(fitGroundFrame(pixels, Attitude{}, buffers).translation().z() - 2);
     };
     EXPECT_GT(movedBy(0.5f), 0.001f);
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
 }
 
 TEST(GroundFrame, TwoCellsYieldLevelPlane) {
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, work);
+    const Eigen::Isometry3f frame =
+        fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, buffers);
     EXPECT_TRUE(frame.linear().isIdentity());
     EXPECT_FLOAT_EQ(frame.translation().z(), 2);
-    EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, work).translation().z(), 1.5f);
+    EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, buffers).translation().z(), 1.5f);
 }
 
 TEST(GroundFrame, NoPixelYieldsLevelPlaneThroughSensor) {
     const PixelPoints none = pixelsAt({test::kEmptyPixel, test::kEmptyPixel});
-    EXPECT_TRUE(fitGroundFrame(none, {}, work).isApprox(Eigen::Isometry3f::Identity()));
+    EXPECT_TRUE(fitGroundFrame(none, {}, buffers).isApprox(Eigen::Isometry3f::Identity()));
     const Attitude attitude{0.1f, 0.2f};
-    EXPECT_TRUE(fitGroundFrame(none, attitude, work).linear().isApprox(levelFromSensor(attitude)));
-    EXPECT_TRUE(fitGroundFrame(none, attitude, work).translation().isZero());
+    EXPECT_TRUE(
+        fitGroundFrame(none, attitude, buffers).linear().isApprox(levelFromSensor(attitude)));
+    EXPECT_TRUE(fitGroundFrame(none, attitude, buffers).translation().isZero());
 }
 
 TEST(GroundFrame, AcceptsCollinearPoints) {
     std::vector<Eigen::Vector3f> line;
     for (int i = 1; i < 20; ++i) line.emplace_back(static_cast<float>(i), 0, -2);
-    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(line), {}, work);
+    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(line), {}, buffers);
     EXPECT_TRUE(frame.matrix().allFinite());
     EXPECT_LT(greatestHeight(frame, line), 0.01f);
 }
@@ -199,7 +201,7 @@ TEST(CanBeGround, NeedsSensorAboveLevelGround) {
 
 TEST(Upwards, WithoutAttitudeIsGroundNormal) {
     const Eigen::Isometry3f frame =
-        fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {}, work);
+        fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {}, buffers);
     EXPECT_EQ(upwards(frame, std::nullopt), Eigen::Vector3f::UnitZ());
 }
 
@@ -208,7 +210,7 @@ TEST(Upwards, SlopeLeansFromNormal) {
     // ground, so up leans forward from the ground normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =
-        fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{}, work);
+        fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{}, buffers);
     const Eigen::Vector3f up = upwards(frame, Attitude{});
     EXPECT_NEAR(up.z(), std::cos(radians(10)), 1e-3);
     EXPECT_NEAR(up.x(), std::sin(radians(10)), 1e-3);

@@ -21,13 +21,13 @@ namespace {
 
 /// The returns of a rotating sensor 2 m above rolling ground, in the sensor frame, with obstacles,
 /// low plants, stray returns below the ground, gaps and returns outside the grid.
-struct Sight {
+struct StageInput {
     PixelPoints pixels;
     Image<Label> labels;
 };
 
-Sight randomSight(test::Random& random, int rows, int columns, float step_m, double missing) {
-    Sight s;
+StageInput randomSight(test::Random& random, int rows, int columns, float step_m, double missing) {
+    StageInput s;
     for (auto* image : {&s.pixels.x_m, &s.pixels.y_m, &s.pixels.z_m}) {
         image->setConstant(rows, columns, kNoValue);
     }
@@ -64,7 +64,7 @@ Sight randomSight(test::Random& random, int rows, int columns, float step_m, dou
 
 /// A yard with poles and walls, simulated with range noise and missing returns, and the filter's
 /// labels.
-Sight simulatedSight(test::Random& random, const char* sensor_name) {
+StageInput simulatedSight(test::Random& random, const char* sensor_name) {
     const SensorModel sensor = sensorModel(sensor_name);
     const auto noise = [&](const Eigen::Vector3d&, test::Hit& hit) {
         hit.range_m = random.chance(0.06) ? 1e9 : hit.range_m + random.real(-0.03f, 0.03f);
@@ -100,7 +100,7 @@ void forManySights(Visit visit) {
 }
 
 const HeightTolerance kTolerance;
-FilterWorkspace work;  // reused, as in a filter
+FilterWorkspace stages_work;  // reused, as in a filter
 
 /// The results of all stages from pixels to labels.
 struct Judged {
@@ -115,20 +115,21 @@ struct Judged {
     bool raised, grown, despeckled;  ///< whether these stages changed anything
 };
 
-Judged judged(const Sight& sight) {
+Judged judged(const StageInput& sight) {
     Judged j;
     PixelPoints pixels = sight.pixels;
-    j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f}, work.ground_frame);
+    j.frame = fitGroundFrame(pixels, Attitude{0.02f, -0.03f}, stages_work.ground_frame);
     movePixels(j.frame, pixels);
     findPixelCells(pixels, j.cells);
-    findLevelPixels(pixels, j.cells, j.is_level, work.evidence);
-    keepLevelRou(sight.labels, j.is_level, work.candidates);
-    fitGroundSurface(pixels, work.candidates, j.surface, work.ground_surface);
-    fitGroundSurface(pixels, sight.labels == Label::Rou, j.surface_of_rou, work.ground_surface);
+    findLevelPixels(pixels, j.cells, j.is_level, stages_work.evidence);
+    keepLevelRou(sight.labels, j.is_level, stages_work.candidates);
+    fitGroundSurface(pixels, stages_work.candidates, j.surface, stages_work.ground_surface);
+    fitGroundSurface(pixels, sight.labels == Label::Rou, j.surface_of_rou,
+                     stages_work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(j.cells, j.height_m, j.tops);
     toleratedHeights(pixels, j.cells, j.tops, kTolerance, std::max(j.frame.translation().z(), 0.1f),
-                     j.tolerance_m, work.tolerance);
+                     j.tolerance_m, stages_work.tolerance);
     const Image<float> before_m = j.tolerance_m;
     tolerateCanopy(j.cells, j.tops, j.frame.translation().z(), j.tolerance_m);
     j.raised = !test::same(before_m, j.tolerance_m);
@@ -136,16 +137,16 @@ Judged judged(const Sight& sight) {
                     j.tolerance_m, j.has_evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     Image<Label> before = j.labels;
-    growFeet(pixels, j.height_m, j.labels, work.feet);
+    growFeet(pixels, j.height_m, j.labels, stages_work.feet);
     j.grown = (before != j.labels).any();
     before = j.labels;
-    removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, work.specks);
+    removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels, stages_work.specks);
     j.despeckled = (before != j.labels).any();
     return j;
 }
 
 /// Like judged(), by the definitions.
-Judged defined(const Sight& sight) {
+Judged defined(const StageInput& sight) {
     Judged j;
     PixelPoints pixels = sight.pixels;
     std::vector<std::int32_t> columns;
@@ -154,9 +155,9 @@ Judged defined(const Sight& sight) {
     movePixels(j.frame, pixels);
     plain::findPixelCells(pixels, j.cells);
     plain::findLevelPixels(pixels, j.cells, j.is_level);
-    keepLevelRou(sight.labels, j.is_level, work.candidates);
+    keepLevelRou(sight.labels, j.is_level, stages_work.candidates);
     sampleColumns(sight.labels.cols(), surface_rules::kEnoughColumns, columns);
-    plain::fitGroundSurface(pixels, work.candidates, columns, j.surface);
+    plain::fitGroundSurface(pixels, stages_work.candidates, columns, j.surface);
     plain::fitGroundSurface(pixels, sight.labels == Label::Rou, j.surface_of_rou);
     plain::heightsAbove(j.surface, pixels, j.height_m);
     plain::findCellTops(j.cells, j.height_m, j.tops);
@@ -192,11 +193,11 @@ void expectSame(const Judged& a, const Judged& b) {
 }
 
 TEST(GroundStages, MatchDefinitions) {
-    forManySights([](const Sight& sight) { expectSame(judged(sight), defined(sight)); });
+    forManySights([](const StageInput& sight) { expectSame(judged(sight), defined(sight)); });
 }
 
 TEST(GroundStages, MatchOnEveryInstructionSet) {
-    forManySights([](const Sight& sight) {
+    forManySights([](const StageInput& sight) {
         std::vector<Judged> results;
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name);
@@ -210,7 +211,7 @@ TEST(GroundStages, MatchOnEveryInstructionSet) {
 /// Ensures that the comparisons above are not vacuous.
 TEST(GroundStages, TestScansExerciseEveryStage) {
     int canopies = 0, feet = 0, specks = 0, withdrawn = 0, kept = 0;
-    forManySights([&](const Sight& sight) {
+    forManySights([&](const StageInput& sight) {
         const Judged j = judged(sight);
         canopies += j.raised;
         feet += j.grown;

@@ -16,13 +16,13 @@ using test::pixelsAt;
 constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 using Grid = Eigen::ArrayXXf;
-GroundSurfaceWorkspace work;  // reused, as in a filter
+GroundSurfaceWorkspace surface_work;  // reused, as in a filter
 
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
     GroundSurface surface;
     const PixelPoints pixels = pixelsAt(points_m);
     const Image<bool> all = Image<bool>::Constant(1, pixels.x_m.cols(), true);
-    fitGroundSurface(pixels, all, surface, work);
+    fitGroundSurface(pixels, all, surface, surface_work);
     return surface;
 }
 
@@ -74,7 +74,7 @@ TEST(GroundSurface, IsPlaneWithoutCandidates) {
     EXPECT_TRUE((surfaceUnder({test::kEmptyPixel}).height_m == 0).all());
     GroundSurface surface;
     const PixelPoints high = pixelsAt({{5, 0, 3}});
-    fitGroundSurface(high, Image<bool>::Constant(1, 1, false).eval(), surface, work);
+    fitGroundSurface(high, Image<bool>::Constant(1, 1, false).eval(), surface, surface_work);
     EXPECT_EQ(surface.height_m.rows(), kCells);
     EXPECT_EQ(surface.height_m.cols(), kCells);
     EXPECT_TRUE((surface.height_m == 0).all());
@@ -173,7 +173,7 @@ TEST(GroundSurface, IgnoresOtherPixels) {
     is_candidate.leftCols(static_cast<Eigen::Index>(ground)) = true;
     is_candidate.rightCols(static_cast<Eigen::Index>(ground)) = false;
     GroundSurface surface;
-    fitGroundSurface(pixelsAt(points), is_candidate, surface, work);
+    fitGroundSurface(pixelsAt(points), is_candidate, surface, surface_work);
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
@@ -195,8 +195,8 @@ TEST(GroundSurface, RecoversGroundCutOffByLabels) {
         Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size()));
     const PixelPoints pixels = pixelsAt(points);
     GroundSurface of_rou, surface;
-    fitGroundSurface(pixels, (image == Label::Rou).eval(), of_rou, work);
-    fitGroundSurface(pixels, image, surface, work);
+    fitGroundSurface(pixels, (image == Label::Rou).eval(), of_rou, surface_work);
+    fitGroundSurface(pixels, image, surface, surface_work);
     EXPECT_LT(of_rou.at(8, 0), 0.1f);
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
@@ -216,7 +216,7 @@ TEST(GroundSurface, KeepsDistantPixelsExcluded) {
         fitGroundSurface(
             pixelsAt(points),
             Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size())),
-            surface, work);
+            surface, surface_work);
         EXPECT_LT(greatestError(surface, 18, kLevel), 0.01f);
     }
 }

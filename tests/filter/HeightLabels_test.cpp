@@ -15,8 +15,8 @@ using test::kEmptyPixel;
 using test::pixelsAt;
 
 /// Tolerances over the plane z = 0, so that a pixel's height is its z.
-Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
-                       float sensor_height_m = 1) {
+Image<float> toleratedHeights(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
+                              float sensor_height_m = 1) {
     static ToleranceWorkspace work;  // reused, as in a filter
     Image<float> tolerance_m;
     CellTops tops;
@@ -29,7 +29,7 @@ Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& toleran
 
 TEST(HeightTolerance, GrowsWithDistance) {
     const Image<float> tolerance_m =
-        tolerated(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
+        toleratedHeights(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.17f);
     EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.195f);  // 0.17 + 0.005 * 5
     EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.37f);
@@ -38,13 +38,13 @@ TEST(HeightTolerance, GrowsWithDistance) {
 
 TEST(HeightTolerance, IsAtLeastFourCentimetres) {
     const Image<float> tolerance_m =
-        tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}), {0.1f, 0.0f, 0.12f});
+        toleratedHeights(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}), {0.1f, 0.0f, 0.12f});
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.04f);
 }
 
 TEST(HeightTolerance, IgnoresLoneHighReturns) {
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
+    EXPECT_FLOAT_EQ(toleratedHeights(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
+    EXPECT_FLOAT_EQ(toleratedHeights(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
                     0.195f - 0.12f * 0.5f);
 }
 

@@ -12,7 +12,7 @@
 namespace hagen {
 namespace {
 
-constexpr int kColumns = 90;
+constexpr int kTiltedColumns = 90;
 
 Attitude randomAttitude(test::Random& random) {
     const float max_rad = static_cast<float>(radians(15));
@@ -45,13 +45,13 @@ TEST(Levelling, RotationIsPitchThenRoll) {
 TEST(Levelling, MatchesLevelCoordinates) {
     test::Random random(63);
     const SensorModel sensor = sensorModel("VLP-16");
-    const Image<float> depth_m = random.image(16, kColumns, 1, 30, 0.2);
+    const Image<float> depth_m = random.image(16, kTiltedColumns, 1, 30, 0.2);
     const Attitude attitude = randomAttitude(random);
     const Image<float> angles_rad = levelAngles(depth_m, sensor, attitude);
     const Eigen::Matrix3d level = levelFromSensor(attitude).cast<double>();
     ASSERT_EQ(angles_rad.rows(), 15);
-    for (int column = 0; column < kColumns; ++column) {
-        const double azimuth_rad = static_cast<double>(columnAzimuth(column, kColumns));
+    for (int column = 0; column < kTiltedColumns; ++column) {
+        const double azimuth_rad = static_cast<double>(columnAzimuth(column, kTiltedColumns));
         for (int row = 0; row < 15; ++row) {
             const float below = depth_m(row, column), above = depth_m(row + 1, column);
             ASSERT_EQ(hasValue(angles_rad(row, column)), hasValue(below) && hasValue(above));
@@ -71,7 +71,7 @@ TEST(Levelling, MatchesLevelCoordinates) {
 TEST(Levelling, WithoutTiltMatchesPaper) {
     test::Random random(64);
     const SensorModel sensor = sensorModel("VLP-16");
-    const Image<float> depth_m = random.image(16, kColumns, 1, 30, 0.2);
+    const Image<float> depth_m = random.image(16, kTiltedColumns, 1, 30, 0.2);
     Image<float> papers_rad;
     rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())), papers_rad);
     EXPECT_TRUE(test::same(levelAngles(depth_m, sensor, std::nullopt), papers_rad));

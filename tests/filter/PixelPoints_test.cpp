@@ -9,7 +9,7 @@
 namespace hagen {
 namespace {
 
-constexpr int kColumns = 360;
+constexpr int kPixelColumns = 360;
 
 struct Located {
     Scan scan;
@@ -25,7 +25,7 @@ Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& p
     static ProjectionWorkspace work;
     Located l;
     l.scan = test::scanOf(sensor, points_m);
-    projectScan(l.scan, sensor, kColumns, 100.0f, l.image, work);
+    projectScan(l.scan, sensor, kPixelColumns, 100.0f, l.image, work);
     l.depth_m = l.image.depth_m;
     fill(l.depth_m);
     locatePixels(l.scan, pixelDirections(sensor, static_cast<int>(l.depth_m.cols())), l.image,
@@ -57,7 +57,7 @@ TEST(PixelPoints, RepairedPixelIsOnItsBeam) {
     for (const auto& [row, column, depth_m] : {std::tuple{2, 7, 5.0f}, {15, 300, 12.0f}}) {
         const Eigen::Vector3f point_m = l.pixels.at(column * 16 + row);
         EXPECT_NEAR(point_m.norm(), depth_m, 1e-5);
-        EXPECT_EQ(nearestColumn(std::atan2(point_m.y(), point_m.x()), kColumns), column);
+        EXPECT_EQ(nearestColumn(std::atan2(point_m.y(), point_m.x()), kPixelColumns), column);
         EXPECT_NEAR(std::asin(point_m.z() / depth_m), sensor.elevations_rad[row], 1e-5);
     }
     EXPECT_EQ((!l.pixels.x_m.isNaN()).count(), 2);

@@ -15,8 +15,8 @@ namespace {
 
 using test::SimpleScene;
 
-const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
-constexpr int kColumns = 870;
+const Eigen::Vector3d kSensorAboveGround(0, 0, 2);
+constexpr int kSectorColumns = 870;
 
 /// A turn whose first returns form a sector around the front.
 struct Turn {
@@ -25,7 +25,7 @@ struct Turn {
 };
 
 Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad) {
-    const Scan scan = test::scanScene(scene, sensor, kColumns, kTwoMetresUp).scan;
+    const Scan scan = test::scanScene(scene, sensor, kSectorColumns, kSensorAboveGround).scan;
     Turn turn;
     for (const bool is_of_sector : {true, false}) {
         for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -56,7 +56,7 @@ std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
 /// All columns within 35 degrees of the front, and every sixth column elsewhere.
 ColumnMap windowInFront() {
     ColumnMap map;
-    mapColumns(kColumns, 6, 58, 29, map);
+    mapColumns(kSectorColumns, 6, 58, 29, map);
     return map;
 }
 
@@ -117,7 +117,7 @@ TEST(SectorFilter, EmptySectorHasNoLabels) {
     const ColumnMap columns = windowInFront();
     EXPECT_TRUE(filter.segment(none, {}, {none, columns, {}}).returns.label.empty());
     // A context without a sector.
-    const Scan scan = test::scanScene({}, sensor, kColumns, kTwoMetresUp).scan;
+    const Scan scan = test::scanScene({}, sensor, kSectorColumns, kSensorAboveGround).scan;
     const std::vector<Label> rou(scan.size(), Label::Rou);
     EXPECT_TRUE(filter.segment(scan, {}, {none, columns, contextOf(rou)}).returns.label.empty());
 }
@@ -152,7 +152,8 @@ Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
     thin.sector = turn.sector;
     for (std::size_t i = 0; i < turn.scan.size(); ++i) {
         const bool is_context = i >= turn.sector.size();
-        if (is_context && nearestColumn(turn.scan.azimuth_rad[i], kColumns) % 6 != 0) continue;
+        if (is_context && nearestColumn(turn.scan.azimuth_rad[i], kSectorColumns) % 6 != 0)
+            continue;
         appendReturn(turn.scan, i, thin.scan);
         thin.whole.push_back(turn.whole[i]);
         kept.push_back(i);
@@ -169,7 +170,7 @@ TEST(SectorFilter, CanopyNeedsContextHeights) {
     // Earlier sectors contained all returns; here, one whole turn.
     SectorFilter all(sensor, {});
     ColumnMap every_column;
-    mapColumns(kColumns, 6, 0, kColumns / 6, every_column);
+    mapColumns(kSectorColumns, 6, 0, kSectorColumns / 6, every_column);
     all.segment(turn.scan, {}, {turn.scan, every_column, contextOf(turn.whole)});
     std::vector<ContextReturn> context;
     for (const std::size_t i : kept) context.push_back(all.found()[i]);

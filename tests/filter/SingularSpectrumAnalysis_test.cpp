@@ -52,7 +52,7 @@ Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int princi
 
 /// Maximum error of a result, and of a result whose eigenvalues on both sides of the cut differ by
 /// at least 1e-3 of the largest.
-constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
+constexpr double kSsaTolerance = 2e-4, kAccuracy = 1e-4 / 3;
 
 /// Typical columns: noise, constants, ramps, steps, walls above ground, waves or few distinct
 /// values; some have gaps.
@@ -112,7 +112,7 @@ TEST(Ssa, MatchesDenseSvd) {
                         if (!(gap > 1e-9)) return;
                         ++(gap > 1e-3 ? clear : unclear);
                         EXPECT_LT((run.cast<double>() - expected).abs().maxCoeff(),
-                                  gap > 1e-3 ? kAccuracy : kTolerance)
+                                  gap > 1e-3 ? kAccuracy : kSsaTolerance)
                             << count << " values, W " << window_size << ", PC " << components
                             << ", gap " << gap;
                     });
@@ -202,7 +202,7 @@ TEST(Ssa, LeadingElementarySeriesSumToSmoothed) {
                 const Eigen::VectorXd sum = found.elementary.leftCols(components).rowwise().sum();
                 const Image<float> expected = smoothed(values, window_size, components);
                 EXPECT_LT((sum.array() - expected.col(column).cast<double>()).abs().maxCoeff(),
-                          kTolerance);
+                          kSsaTolerance);
             }
             for (int c = 1; c < window_size; ++c) {
                 EXPECT_GE(found.eigenvalues(c - 1), found.eigenvalues(c));

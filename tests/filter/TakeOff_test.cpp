@@ -13,7 +13,7 @@
 namespace hagen {
 namespace {
 
-constexpr int kColumns = 870;
+constexpr int kClimbColumns = 870;
 
 /// Bumps with a standard deviation of 3 cm and wavelengths of 0.3 to 2 m.
 double bump_m(double x_m, double y_m) {
@@ -46,7 +46,7 @@ test::LabelledScan forestFrom(double sensor_m, const SensorModel& sensor) {
             if (crown_m < std::min(hit.range_m, 45.0)) hit = {crown_m, Label::Roi};
         }
     };
-    return test::scanScene(scene, sensor, kColumns, {0, 0, sensor_m}, tilt(), roughen);
+    return test::scanScene(scene, sensor, kClimbColumns, {0, 0, sensor_m}, tilt(), roughen);
 }
 
 SensorModel sixtyFourBeams(double reach_deg) {
@@ -56,14 +56,15 @@ SensorModel sixtyFourBeams(double reach_deg) {
     return customSensorModel(elevations_deg);
 }
 
-struct Outcome {
+struct TakeOffOutcome {
     double ground_share = 0;  ///< of the ground returns, those that are ROU
     int obstacles = 0;        ///< returns more than 0.25 m above the mean ground
     int missed = 0;           ///< of these, returns that are not RoI
 };
 
-Outcome outcome(const test::LabelledScan& seen, double sensor_m, const std::vector<Label>& label) {
-    Outcome o;
+TakeOffOutcome takeOffOutcome(const test::LabelledScan& seen, double sensor_m,
+                              const std::vector<Label>& label) {
+    TakeOffOutcome o;
     double ground = 0, rou = 0;
     for (std::size_t i = 0; i < label.size(); ++i) {
         if (seen.scan.range_m[i] < 0.5f || seen.scan.range_m[i] > 20) continue;
@@ -86,17 +87,18 @@ TEST(TakeOff, GroundInForestIsRou) {
             const SensorModel sensor = sixtyFourBeams(reach_deg);
             const test::LabelledScan seen = forestFrom(sensor_m, sensor);
             HagenFilter filter(sensor);
-            const Outcome whole = outcome(seen, sensor_m, filter.segment(seen.scan).returns.label);
+            const TakeOffOutcome whole =
+                takeOffOutcome(seen, sensor_m, filter.segment(seen.scan).returns.label);
             EXPECT_GT(whole.ground_share, 0.9);
             EXPECT_GT(whole.obstacles, 10000);
             EXPECT_EQ(whole.missed, 0);
 
             SectorFilter sectors(sensor, {});  // a sector of the whole turn
             ColumnMap columns;
-            mapColumns(kColumns, 1, 0, kColumns, columns);
+            mapColumns(kClimbColumns, 1, 0, kClimbColumns, columns);
             const std::vector<ContextReturn> context(seen.scan.size());
             const auto& result = sectors.segment(seen.scan, {}, {seen.scan, columns, context});
-            const Outcome live = outcome(seen, sensor_m, result.returns.label);
+            const TakeOffOutcome live = takeOffOutcome(seen, sensor_m, result.returns.label);
             EXPECT_GT(live.ground_share, 0.9);
             EXPECT_EQ(live.missed, 0);
         }

@@ -14,7 +14,7 @@ using sensors::Taken;
 
 constexpr int kPoints = test::kLivoxPoints;
 constexpr std::int64_t kPacket_ns = test::kLivoxPacket_ns;
-const auto packetOf = test::livoxPacketOfWall;
+const auto livoxPacketOf = test::livoxPacketOfWall;
 
 class LivoxStreamTest : public testing::Test {
  protected:
@@ -44,7 +44,8 @@ class LivoxStreamTest : public testing::Test {
 
 TEST_F(LivoxStreamTest, FramesLastTwentyMilliseconds) {
     for (int i = 0; i < 420; ++i) {
-        EXPECT_EQ(add(packetOf(i, 1000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i), Taken::Yes);
+        EXPECT_EQ(add(livoxPacketOf(i, 1000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i),
+                  Taken::Yes);
     }
     EXPECT_NEAR(static_cast<double>(frames_.size()), 10, 1);
     EXPECT_FALSE(frames_[0].has_turn);
@@ -60,7 +61,7 @@ TEST_F(LivoxStreamTest, FramesLastTwentyMilliseconds) {
 
 TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     const auto packet = [](int i, std::int64_t offset_ns = 0) {
-        return packetOf(i, 5000000000 + offset_ns + kPacket_ns * i);
+        return livoxPacketOf(i, 5000000000 + offset_ns + kPacket_ns * i);
     };
     double time_s = 0;
     for (const int i : {0, 1, 1, 2, 5, 6, 8, 7, 9}) add(packet(i), time_s += 5e-4);
@@ -86,7 +87,7 @@ TEST_F(LivoxStreamTest, ClockStepBackDoesNotDelayPackets) {
                            });
         for (int i = 0; i < 1000; ++i) {
             const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
-            const std::string packet = packetOf(i, time_ns);
+            const std::string packet = livoxPacketOf(i, time_ns);
             stream.add(test::datagramOf(packet), 1 + 1e-9 * kPacket_ns * i);
         }
         EXPECT_EQ(stream.counts().interruptions, 1u);
@@ -110,7 +111,7 @@ TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
             LidarStream stream(sensors::makeDriver("Mid-360"), {}, [](const LabelledSector&) {});
             const auto addTo = [&](int i, int now) {
                 const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
-                const std::string packet = packetOf(i, time_ns);
+                const std::string packet = livoxPacketOf(i, time_ns);
                 return stream.add(test::datagramOf(packet), 1 + 1e-9 * kPacket_ns * now);
             };
             for (int i = 0; i < 1000; ++i) {
@@ -129,7 +130,7 @@ TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
 
 /// Packets delayed by a network are older than those that arrive with them.
 TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
-    const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
+    const auto packet = [](int i) { return livoxPacketOf(i, 5000000000 + kPacket_ns * i); };
     double time_s = 0;
     for (int i = 0; i < 400; ++i) add(packet(i), time_s += 4.8e-4);
     EXPECT_EQ(add(packet(500), time_s += 4.8e-4), Taken::Yes);
@@ -139,7 +140,7 @@ TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     EXPECT_EQ(add(packet(501), time_s += 4.8e-4), Taken::Yes);
     EXPECT_EQ(add(packet(423), time_s += 4.8e-4), Taken::TooLate);
     EXPECT_EQ(add(packet(490), time_s += 4.8e-4), Taken::Yes);
-    EXPECT_EQ(add(packetOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
+    EXPECT_EQ(add(livoxPacketOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
     EXPECT_EQ(add(packet(503), time_s += 4.8e-4), Taken::Yes);
     for (int i = 0; i < 300; ++i) {  // duplicates from a slower path
         EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Duplicate);
@@ -161,7 +162,7 @@ TEST_F(LivoxStreamTest, FrameEndsAtSilence) {
         stream.add(test::datagramOf(packet), time_s);
     };
     for (int i = 0; i < 500; ++i) {
-        addTo(packetOf(i, 5000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i);
+        addTo(livoxPacketOf(i, 5000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i);
     }
     const std::size_t before = frames_.size();
     const int again = 500 + 1875;  // 0.9 s
@@ -226,7 +227,7 @@ TEST_F(LivoxStreamTest, HeavyPacketLossMakesSectorsDoubtful) {
             doubtful += sector.is_doubtful;
         });
         for (int i = 0; i < 2000; i += every) {
-            const std::string packet = packetOf(i, 1000000000 + kPacket_ns * i);
+            const std::string packet = livoxPacketOf(i, 1000000000 + kPacket_ns * i);
             stream.add(test::datagramOf(packet), 1e-9 * kPacket_ns * i);
         }
     };
@@ -242,7 +243,7 @@ TEST_F(LivoxStreamTest, HeavyPacketLossMakesSectorsDoubtful) {
 TEST_F(LivoxStreamTest, RejectsForeignDatagrams) {
     EXPECT_EQ(add("", 0), Taken::WrongSize);
     EXPECT_EQ(add(std::string(1206, 'x'), 0), Taken::WrongSize);
-    EXPECT_EQ(add(packetOf(0, 0).substr(2), 0), Taken::WrongSize);
+    EXPECT_EQ(add(livoxPacketOf(0, 0).substr(2), 0), Taken::WrongSize);
     stream_.flush();
     EXPECT_TRUE(frames_.empty());
     EXPECT_EQ(stream_.counts().wrong_size, 3u);

@@ -9,8 +9,6 @@ namespace {
 
 using State = SectorDistances::State;
 
-constexpr double kTurn_rad = 2 * kPi;
-
 double turned_deg(double rad) { return rad < 0 ? degrees(rad) + 360 : degrees(rad); }
 
 struct Point {

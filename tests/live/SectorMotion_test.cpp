@@ -10,18 +10,17 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
-constexpr int kPackets = 75;
+constexpr int kPacketsPerSweep = 75;
 
 /// The packets of a turn over flat ground with a pole and a wall.
 std::vector<Scan> packetsOfATurn(const SensorModel& sensor) {
     const test::SimpleScene scene = test::sceneOf({{{-12, -6, 0}, {-11, 6, 4}}}, {{8, 3, 0.2, 6}});
     const Scan turn = test::scanScene(scene, sensor, 870, {0, 0, 2}).scan;
-    std::vector<Scan> packets(kPackets);
+    std::vector<Scan> packets(kPacketsPerSweep);
     for (std::size_t i = 0; i < turn.size(); ++i) {
         const double clockwise_rad = kPi - static_cast<double>(turn.azimuth_rad[i]);
-        const int p =
-            std::min(static_cast<int>(clockwise_rad / kTurn_rad * kPackets), kPackets - 1);
+        const int p = std::min(static_cast<int>(clockwise_rad / kTurn_rad * kPacketsPerSweep),
+                               kPacketsPerSweep - 1);
         packets[p].x_m.push_back(turn.x_m[i]);
         packets[p].y_m.push_back(turn.y_m[i]);
         packets[p].z_m.push_back(turn.z_m[i]);
@@ -31,8 +30,8 @@ std::vector<Scan> packetsOfATurn(const SensorModel& sensor) {
 }
 
 Sweep sweepOf(int turn, int packet) {
-    const double from_rad = kPi + turn * kTurn_rad + packet * kTurn_rad / kPackets;
-    return {from_rad, from_rad + kTurn_rad / kPackets};
+    const double from_rad = kPi + turn * kTurn_rad + packet * kTurn_rad / kPacketsPerSweep;
+    return {from_rad, from_rad + kTurn_rad / kPacketsPerSweep};
 }
 
 TEST(SectorPackets, LostPacketLeavesGap) {
@@ -48,12 +47,12 @@ TEST(SectorPackets, LostPacketLeavesGap) {
         }
         swept_rad += sector.sweep->to_rad - sector.sweep->from_rad;
     });
-    for (int p = 0; p < kPackets; ++p) {
-        if (p != 13) segmenter.add(packets[p], sweepOf(0, p), 0.1 * p / kPackets);
+    for (int p = 0; p < kPacketsPerSweep; ++p) {
+        if (p != 13) segmenter.add(packets[p], sweepOf(0, p), 0.1 * p / kPacketsPerSweep);
     }
     segmenter.flush();
     EXPECT_NEAR(swept_rad, kTurn_rad, 1e-6);
-    EXPECT_NEAR(covered_rad, kTurn_rad * (kPackets - 1) / kPackets, 1e-6);
+    EXPECT_NEAR(covered_rad, kTurn_rad * (kPacketsPerSweep - 1) / kPacketsPerSweep, 1e-6);
 }
 
 TEST(SectorPackets, LostSweepIsNotFree) {
@@ -85,8 +84,8 @@ std::vector<Label> labelsAfter(const std::optional<Eigen::Isometry3d>& first) {
     });
     segmenter.setPose(first);
     for (int turn = 0; turn < 2; ++turn) {
-        for (int p = 0; p < kPackets; ++p) {
-            segmenter.add(packets[p], sweepOf(turn, p), 0.1 * turn + 0.1 * p / kPackets);
+        for (int p = 0; p < kPacketsPerSweep; ++p) {
+            segmenter.add(packets[p], sweepOf(turn, p), 0.1 * turn + 0.1 * p / kPacketsPerSweep);
         }
         segmenter.flush();
         segmenter.setPose({});

@@ -18,8 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kTurn_rad = 2 * kPi;
-constexpr int kColumns = 870, kPackets = 75;
+constexpr int kColumns = 870, kPacketsOfTurn = 75;
 
 /// Flat ground with a pole and a wall.
 test::SimpleScene sceneWithPole() {
@@ -28,12 +27,12 @@ test::SimpleScene sceneWithPole() {
 
 /// The returns of each packet of a turn, clockwise from behind, as a sensor sends them.
 std::vector<Scan> packetsOf(const test::LabelledScan& turn, std::vector<Label>* truth = nullptr) {
-    std::vector<Scan> packets(kPackets);
-    std::vector<std::vector<Label>> labels(kPackets);
+    std::vector<Scan> packets(kPacketsOfTurn);
+    std::vector<std::vector<Label>> labels(kPacketsOfTurn);
     for (std::size_t i = 0; i < turn.scan.size(); ++i) {
         const double clockwise_rad = kPi - static_cast<double>(turn.scan.azimuth_rad[i]);
-        const int packet =
-            std::min(static_cast<int>(clockwise_rad / kTurn_rad * kPackets), kPackets - 1);
+        const int packet = std::min(static_cast<int>(clockwise_rad / kTurn_rad * kPacketsOfTurn),
+                                    kPacketsOfTurn - 1);
         Scan& scan = packets[packet];
         scan.x_m.push_back(turn.scan.x_m[i]);
         scan.y_m.push_back(turn.scan.y_m[i]);
@@ -50,9 +49,9 @@ std::vector<Scan> packetsOf(const test::LabelledScan& turn, std::vector<Label>* 
     return packets;
 }
 
-Sweep sweepOf(int turn, int packet) {
-    const double from_rad = kPi + turn * kTurn_rad + packet * kTurn_rad / kPackets;
-    return {from_rad, from_rad + kTurn_rad / kPackets};
+Sweep sweepOfPacket(int turn, int packet) {
+    const double from_rad = kPi + turn * kTurn_rad + packet * kTurn_rad / kPacketsOfTurn;
+    return {from_rad, from_rad + kTurn_rad / kPacketsOfTurn};
 }
 
 class StreamingSegmenterTest : public testing::Test {
@@ -72,9 +71,10 @@ class StreamingSegmenterTest : public testing::Test {
         };
     }
     static void addTurn(int turn, const std::vector<Scan>& packets, StreamingSegmenter& segmenter,
-                        int from = 0, int to = kPackets) {
+                        int from = 0, int to = kPacketsOfTurn) {
         for (int p = from; p < to; ++p) {
-            segmenter.add(packets[p], sweepOf(turn, p), 0.1 * turn + 0.1 * p / kPackets);
+            segmenter.add(packets[p], sweepOfPacket(turn, p),
+                          0.1 * turn + 0.1 * p / kPacketsOfTurn);
         }
     }
     std::vector<Label> labels() const {
@@ -189,7 +189,7 @@ TEST_F(StreamingSegmenterTest, SectorEndsWithLastFittingPacket) {
     ASSERT_EQ(taken_.size(), 1u);
     EXPECT_NEAR(taken_[0].sweep.from_rad, kPi, 1e-9);
     EXPECT_NEAR(taken_[0].sweep.to_rad, kPi + radians(19.2), 1e-9);
-    EXPECT_NEAR(taken_[0].last_s - taken_[0].first_s, 0.3 / kPackets, 1e-9);
+    EXPECT_NEAR(taken_[0].last_s - taken_[0].first_s, 0.3 / kPacketsOfTurn, 1e-9);
     EXPECT_FALSE(taken_[0].has_turn);
     EXPECT_FALSE(taken_[0].is_cut);
     std::size_t returns = 0;
@@ -341,7 +341,7 @@ TEST_F(StreamingSegmenterTest, RestartClearsState) {
     const auto labelsOfLatest = [&](StreamingSegmenter& segmenter) {
         taken_.clear();
         addTurn(3, latest, segmenter);
-        addTurn(4, latest, segmenter, 0, kPackets / 2);
+        addTurn(4, latest, segmenter, 0, kPacketsOfTurn / 2);
         segmenter.flush();
         return labels();
     };
@@ -358,7 +358,7 @@ TEST_F(StreamingSegmenterTest, RejectsReturnsWithoutAzimuth) {
     Scan packet = packetsOf(test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2}))[0];
     for (const float azimuth_rad : {std::nanf(""), 8.0F}) {
         packet.azimuth_rad.back() = azimuth_rad;
-        EXPECT_THROW(segmenter.add(packet, sweepOf(0, 0), 0), std::invalid_argument);
+        EXPECT_THROW(segmenter.add(packet, sweepOfPacket(0, 0), 0), std::invalid_argument);
     }
 }
 
@@ -375,11 +375,12 @@ TEST_F(StreamingSegmenterTest, RejectsInvalidSweepsAndTimes) {
         EXPECT_THROW(segmenter.add(packets[10], sweep, 0.01), std::invalid_argument);
     }
     for (const double time_s : {kNan, kInfinity, -1e300}) {
-        EXPECT_THROW(segmenter.add(packets[10], sweepOf(0, 10), time_s), std::invalid_argument);
+        EXPECT_THROW(segmenter.add(packets[10], sweepOfPacket(0, 10), time_s),
+                     std::invalid_argument);
         EXPECT_THROW(segmenter.addFrame(packets[10], time_s), std::invalid_argument);
         EXPECT_THROW(segmenter.addFrame(packets[10], 1, 1, time_s), std::invalid_argument);
     }
-    addTurn(0, packets, segmenter, 10, kPackets);
+    addTurn(0, packets, segmenter, 10, kPacketsOfTurn);
     segmenter.flush();
     EXPECT_EQ(labels().size(), turn.scan.size());
 }
@@ -491,7 +492,7 @@ TEST_F(StreamingSegmenterTest, FramesUseEarlierFrames) {
     for (int k = 0; k < 5; ++k) {
         // Every fifth packet forms a frame in all directions.
         Scan frame;
-        for (int p = k; p < kPackets; p += 5) {
+        for (int p = k; p < kPacketsOfTurn; p += 5) {
             const Scan& part = packets[p];
             for (std::size_t i = 0; i < part.size(); ++i) {
                 frame.x_m.push_back(part.x_m[i]);

@@ -15,14 +15,14 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr int kRows = 16, kColumns = 870;
+constexpr int kScanRows = 16, kScanColumns = 870;
 
 void add(int column, int row, float range_m, float z_m, Scan& scan) {
     scan.x_m.push_back(range_m);
     scan.y_m.push_back(0);
     scan.z_m.push_back(z_m);
     scan.range_m.push_back(range_m);
-    scan.azimuth_rad.push_back(columnAzimuth(column, kColumns));
+    scan.azimuth_rad.push_back(columnAzimuth(column, kScanColumns));
     scan.row.push_back(static_cast<std::uint8_t>(row));
 }
 
@@ -31,7 +31,7 @@ std::set<std::size_t> thinnedByHand(const Scan& scan, int every) {
     using Pixel = std::pair<int, int>;
     std::map<Pixel, std::vector<std::size_t>> own, group;
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        const int column = nearestColumn(scan.azimuth_rad[i], kColumns);
+        const int column = nearestColumn(scan.azimuth_rad[i], kScanColumns);
         const Pixel pixel{column / every, scan.row[i]};
         if (column % every == 0) own[pixel].push_back(i);
         group[pixel].push_back(i);
@@ -53,13 +53,13 @@ std::set<std::size_t> thinnedByHand(const Scan& scan, int every) {
 TEST(Thinning, MatchesDefinition) {
     test::Random random(1);
     for (const int every : {1, 2, 5, 7}) {
-        Thinning thinning(kRows, kColumns, every);
+        Thinning thinning(kScanRows, kScanColumns, every);
         for (int k = 0; k < 50; ++k) {
             SCOPED_TRACE(k);
             Scan scan;
-            const int first = random.whole(0, kColumns - 12);
+            const int first = random.whole(0, kScanColumns - 12);
             for (int n = random.whole(0, 300); n > 0; --n) {
-                add(first + random.whole(0, 11), random.whole(0, kRows - 1), random.real(1, 60),
+                add(first + random.whole(0, 11), random.whole(0, kScanRows - 1), random.real(1, 60),
                     random.real(-3, 1), scan);
             }
             const std::vector<std::size_t>& kept = thinning.of(scan);
@@ -76,12 +76,12 @@ TEST(Thinning, IgnoresMaskedReturns) {
     add(11, 3, kNoValue, 0.07f, scan);
     add(15, 4, 6, 2, scan);
     add(16, 4, kNoValue, 0.07f, scan);
-    Thinning thinning(kRows, kColumns, 5);
+    Thinning thinning(kScanRows, kScanColumns, 5);
     EXPECT_THAT(thinning.of(scan), ElementsAre(1, 3));
 }
 
 TEST(Thinning, LowGroundReplacesCrown) {
-    Thinning thinning(kRows, kColumns, 5);
+    Thinning thinning(kScanRows, kScanColumns, 5);
     Scan scan;
     add(100, 3, 4, -1, scan);
     add(101, 3, 4.1F, -1.1F, scan);
@@ -92,7 +92,7 @@ TEST(Thinning, LowGroundReplacesCrown) {
 }
 
 TEST(Thinning, UpsideDownSensorInvertsHeights) {
-    Thinning thinning(kRows, kColumns, 5);
+    Thinning thinning(kScanRows, kScanColumns, 5);
     Scan scan;
     add(100, 3, 4, 1, scan);
     add(101, 3, 9, 2.3F, scan);
@@ -103,7 +103,7 @@ TEST(Thinning, UpsideDownSensorInvertsHeights) {
 }
 
 TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
-    Thinning thinning(kRows, kColumns, 5);
+    Thinning thinning(kScanRows, kScanColumns, 5);
     Scan scan;
     add(100, 3, 4, -1, scan);
     add(101, 3, kNoValue, kNoValue, scan);
@@ -111,7 +111,7 @@ TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
 }
 
 TEST(Thinning, KeepsNoReturnsWithoutColumns) {
-    Thinning thinning(kRows, kColumns, 0);
+    Thinning thinning(kScanRows, kScanColumns, 0);
     Scan scan;
     add(0, 3, 4, -1, scan);
     EXPECT_THAT(thinning.of(scan), IsEmpty());

@@ -11,11 +11,10 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
-constexpr int kColumns = 870, kSectors = 24;
+constexpr int kTurnColumns = 870, kSectors = 24;
 
 /// A sensor above a plane that moves by the same step in each turn.
-struct Flight {
+struct StraightFlight {
     Eigen::Isometry3d plane_from_sensor = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2.5));
     Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();  ///< one turn apart
     double noise_m = 0;
@@ -40,12 +39,13 @@ Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
 class TurnMotionTest : public testing::Test {
  protected:
     /// Returns of the plane in a sector, all ROU, each from the sensor's position at its time.
-    Scan sweep(const Flight& flight, int sector) {
+    Scan sweep(const StraightFlight& flight, int sector) {
         Scan scan;
-        for (int k = 0; k < kColumns / kSectors; ++k) {
-            const int column = sector % kSectors * (kColumns / kSectors) + k;
-            const double azimuth_rad = kPi - (column + 0.5) * kTurn_rad / kColumns;
-            const double turns = (sector + static_cast<double>(k) * kSectors / kColumns) / kSectors;
+        for (int k = 0; k < kTurnColumns / kSectors; ++k) {
+            const int column = sector % kSectors * (kTurnColumns / kSectors) + k;
+            const double azimuth_rad = kPi - (column + 0.5) * kTurn_rad / kTurnColumns;
+            const double turns =
+                (sector + static_cast<double>(k) * kSectors / kTurnColumns) / kSectors;
             const Eigen::Isometry3d pose =
                 flight.plane_from_sensor * part(flight.then_from_now, turns);
             for (int row = 0; row < sensor_.rows(); ++row) {
@@ -69,7 +69,7 @@ class TurnMotionTest : public testing::Test {
         return scan;
     }
 
-    void fly(const Flight& flight, int sectors, Label label = Label::Rou) {
+    void fly(const StraightFlight& flight, int sectors, Label label = Label::Rou) {
         for (int k = 0; k < sectors; ++k, ++swept_) {
             const Scan scan = sweep(flight, swept_);
             motion_.add(scan, std::vector<Label>(scan.size(), label),
@@ -78,7 +78,7 @@ class TurnMotionTest : public testing::Test {
     }
 
     /// Maximum height error of ground points 10 m away after applying the estimated motion.
-    double worstHeight_m(const Flight& flight, double turns) const {
+    double worstHeight_m(const StraightFlight& flight, double turns) const {
         const auto estimated = motion_.since(turns);
         if (!estimated) return std::nan("");
         const Eigen::Isometry3d truth = part(flight.then_from_now, -turns);
@@ -96,7 +96,7 @@ class TurnMotionTest : public testing::Test {
     }
 
     const SensorModel sensor_ = sensorModel("VLP-16");
-    TurnMotion motion_{sensor_.rows(), kColumns, 20};
+    TurnMotion motion_{sensor_.rows(), kTurnColumns, 20};
     test::Random random_{1};
     int swept_ = 0;
 };
@@ -116,7 +116,7 @@ TEST_F(TurnMotionTest, FindsTiltAndRise) {
         random_ = test::Random(seed);
         motion_.forget();
         swept_ = 0;
-        Flight flight;
+        StraightFlight flight;
         flight.noise_m = 0.03;
         flight.then_from_now = stepOf(static_cast<double>(random_.real(-3, 3)),
                                       static_cast<double>(random_.real(-3, 3)),
@@ -129,7 +129,7 @@ TEST_F(TurnMotionTest, FindsTiltAndRise) {
 }
 
 TEST_F(TurnMotionTest, DownweightsOutliers) {
-    Flight flight;
+    StraightFlight flight;
     flight.then_from_now = stepOf(1, -2, 0.05);
     fly(flight, 2 * kSectors);
     flight.outliers = 0.2;
@@ -138,7 +138,7 @@ TEST_F(TurnMotionTest, DownweightsOutliers) {
 }
 
 TEST_F(TurnMotionTest, SlopeIsNotTilt) {
-    Flight flight;
+    StraightFlight flight;
     flight.plane_from_sensor.linear() =
         levelFromSensor({static_cast<float>(radians(10.0)), static_cast<float>(radians(-8.0))})
             .cast<double>();
@@ -150,7 +150,7 @@ TEST_F(TurnMotionTest, SlopeIsNotTilt) {
 }
 
 TEST_F(TurnMotionTest, FindsMotionLookingDown) {
-    Flight flight;
+    StraightFlight flight;
     flight.plane_from_sensor.linear() =
         levelFromSensor({0, static_cast<float>(radians(40.0))}).cast<double>();
     flight.then_from_now = stepOf(2, 1, 0);
@@ -159,7 +159,8 @@ TEST_F(TurnMotionTest, FindsMotionLookingDown) {
 }
 
 TEST_F(TurnMotionTest, IgnoresGroundBeyondZone) {
-    motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring of ground is 9.7 m away
+    motion_ =
+        TurnMotion(sensor_.rows(), kTurnColumns, 9);  // the first ring of ground is 9.7 m away
     fly({}, 3 * kSectors);
     EXPECT_FALSE(motion_.since(1));
 }

@@ -10,7 +10,7 @@
 namespace hagen::live {
 namespace {
 
-using Taken = VehicleMotion::Taken;
+using MotionResult = VehicleMotion::Taken;
 
 constexpr double kBehind_s = 50;  // delay of the vehicle's clock
 
@@ -29,8 +29,8 @@ TEST(VehicleMotion, AttitudeMessagesAgree) {
         vehicle.pitch_rad = tilt(random);
         vehicle.yaw_rad = angle(random);
         VehicleMotion euler, quaternion;
-        EXPECT_EQ(euler.take(vehicle.attitude(10), 10 + kBehind_s), Taken::Attitude);
-        EXPECT_EQ(quaternion.take(vehicle.quaternion(10), 10 + kBehind_s), Taken::Attitude);
+        EXPECT_EQ(euler.take(vehicle.attitude(10), 10 + kBehind_s), MotionResult::Attitude);
+        EXPECT_EQ(quaternion.take(vehicle.quaternion(10), 10 + kBehind_s), MotionResult::Attitude);
         const Eigen::Matrix3d expected = ours(vehicle.nedFromFrd());
         for (const VehicleMotion* motion : {&euler, &quaternion}) {
             const auto pose = motion->at(10 + kBehind_s);
@@ -132,26 +132,27 @@ TEST(VehicleMotion, RejectsImpossibleMotion) {
     VehicleMotion motion;
     Vehicle vehicle;
     vehicle.roll_rad = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(motion.take(vehicle.attitude(1), 1), Taken::Refused);
-    EXPECT_EQ(motion.take(vehicle.quaternion(1), 1), Taken::Refused);
+    EXPECT_EQ(motion.take(vehicle.attitude(1), 1), MotionResult::Refused);
+    EXPECT_EQ(motion.take(vehicle.quaternion(1), 1), MotionResult::Refused);
     vehicle = Vehicle();
     vehicle.ned_m.x() = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+    EXPECT_EQ(motion.take(vehicle.place(1), 1), MotionResult::Refused);
     vehicle = Vehicle();
     for (const double speed_m_s : {-101.0, 1e30}) {
         vehicle.speed_m_s.x() = speed_m_s;
-        EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+        EXPECT_EQ(motion.take(vehicle.place(1), 1), MotionResult::Refused);
     }
     vehicle.speed_m_s.setZero();
     vehicle.ned_m.y() = 2e7;
-    EXPECT_EQ(motion.take(vehicle.place(1), 1), Taken::Refused);
+    EXPECT_EQ(motion.take(vehicle.place(1), 1), MotionResult::Refused);
     for (const double rate_rad_s : {-51.0, 1e20}) {
         vehicle.rates_rad_s.z() = rate_rad_s;
-        EXPECT_EQ(motion.take(vehicle.attitude(1), 1), Taken::Refused);
-        EXPECT_EQ(motion.take(vehicle.quaternion(1), 1), Taken::Refused);
+        EXPECT_EQ(motion.take(vehicle.attitude(1), 1), MotionResult::Refused);
+        EXPECT_EQ(motion.take(vehicle.quaternion(1), 1), MotionResult::Refused);
     }
-    EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::AttitudeQuaternion()), 1), Taken::Refused);
-    EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::Heartbeat()), 1), Taken::Other);
+    EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::AttitudeQuaternion()), 1),
+              MotionResult::Refused);
+    EXPECT_EQ(motion.take(mavlink::frameOf(mavlink::Heartbeat()), 1), MotionResult::Other);
     EXPECT_FALSE(motion.at(1));
 }
 

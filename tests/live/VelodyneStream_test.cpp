@@ -26,7 +26,7 @@ using sensors::Taken;
 using sensors::velodyneModel;
 using test::ByteString;
 
-constexpr double kTurn_s = 0.1;
+constexpr double kVelodyneTurn_s = 0.1;
 constexpr std::size_t kPackets = 76;  // per turn; the last one is incomplete
 
 struct Labelled {
@@ -47,8 +47,8 @@ StreamingSegmenter::Take into(Labelled& all) {
 }
 
 /// Packets of several turns of a static VLP-16 2 m above flat ground with a pole and a wall.
-std::vector<ByteString> turnsOf(int turns, std::uint32_t first_us = 1000000, bool is_dual = false,
-                                const char* name = "VLP-16") {
+std::vector<ByteString> velodyneTurns(int turns, std::uint32_t first_us = 1000000,
+                                      bool is_dual = false, const char* name = "VLP-16") {
     const test::SimpleScene scene = test::sceneOf({{{-12, -6, 0}, {-11, 6, 4}}}, {{8, 3, 0.2, 6}});
     return test::turnsOf(scene, velodyneModel(name), turns, first_us, is_dual);
 }
@@ -99,7 +99,7 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
         }
         stream->move(motion);
         for (const auto& raw : packets->scan_packets) {
-            time_s += kTurn_s / static_cast<double>(packets->scan_packets.size());
+            time_s += kVelodyneTurn_s / static_cast<double>(packets->scan_packets.size());
             ByteString packet = test::bytesOf(raw);
             // Some recordings repeat one turn with unchanged times.
             const auto time_us = static_cast<std::uint32_t>(std::lround(1e6 * time_s));
@@ -143,7 +143,7 @@ TEST(StreamedRecordings, RealCaptureLabelsMatchWholeScans) {
 }
 
 TEST_F(VelodyneStreamTest, LabelsSectorEveryThreePackets) {
-    const auto packets = turnsOf(3);
+    const auto packets = velodyneTurns(3);
     addAll(packets, stream_);
     EXPECT_EQ(stream_.counts().packets, packets.size());
     EXPECT_EQ(stream_.counts().scans, 2u);
@@ -164,7 +164,7 @@ TEST_F(VelodyneStreamTest, SilentSectorKeepsContext) {
     using View = std::pair<double, double>;  // start and width of the sector
     for (const auto& [from_deg, width_deg] : {View(90, 180), View(300, 100), View(5, 280)}) {
         SCOPED_TRACE(width_deg);
-        const auto packets = test::withSilentSector(turnsOf(kTurns), from_deg, width_deg);
+        const auto packets = test::withSilentSector(velodyneTurns(kTurns), from_deg, width_deg);
         Labelled live;
         LidarStream stream(sensors::makeDriver("VLP-16"), {}, into(live));
         sensors::PacketCounts learned;
@@ -179,7 +179,7 @@ TEST_F(VelodyneStreamTest, SilentSectorKeepsContext) {
         EXPECT_EQ(stream.counts().interruptions, learned.interruptions);
 
         std::string turn;
-        for (const auto& packet : test::withSilentSector(turnsOf(1), from_deg, width_deg)) {
+        for (const auto& packet : test::withSilentSector(velodyneTurns(1), from_deg, width_deg)) {
             turn += packet;
         }
         Scan scan;
@@ -195,7 +195,7 @@ TEST_F(VelodyneStreamTest, SilentSectorKeepsContext) {
 }
 
 TEST_F(VelodyneStreamTest, LabelsLatePackets) {
-    auto packets = turnsOf(2);
+    auto packets = velodyneTurns(2);
     std::swap(packets[50], packets[51]);
     const ByteString late = packets[80];
     packets.erase(packets.begin() + 80);
@@ -207,7 +207,7 @@ TEST_F(VelodyneStreamTest, LabelsLatePackets) {
     EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
     Labelled in_order;
     LidarStream other(sensors::makeDriver("VLP-16"), {}, into(in_order));
-    addAll(turnsOf(2), other);
+    addAll(velodyneTurns(2), other);
     other.flush();
     EXPECT_EQ(all_.label.size(), in_order.label.size());
     const auto roi = std::count(all_.label.begin(), all_.label.end(), Label::Roi);
@@ -217,7 +217,7 @@ TEST_F(VelodyneStreamTest, LabelsLatePackets) {
 }
 
 TEST_F(VelodyneStreamTest, ClockWrapsEveryHour) {
-    addAll(turnsOf(4, 3600000000u - 150000), stream_);
+    addAll(velodyneTurns(4, 3600000000u - 150000), stream_);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
     EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().scans, 3u);
@@ -225,8 +225,8 @@ TEST_F(VelodyneStreamTest, ClockWrapsEveryHour) {
 }
 
 TEST_F(VelodyneStreamTest, ClockStepIsInterruption) {
-    addAll(turnsOf(2, 500000000), stream_);
-    addAll(turnsOf(2, 1000000), stream_, 0.2);
+    addAll(velodyneTurns(2, 500000000), stream_);
+    addAll(velodyneTurns(2, 1000000), stream_, 0.2);
     EXPECT_EQ(stream_.counts().interruptions, 1u);
     EXPECT_EQ(stream_.counts().packets, 4 * kPackets - 15);
     EXPECT_EQ(stream_.counts().lost, 0u);
@@ -243,7 +243,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     };
     LidarStream stream(sensors::makeDriver("VLP-16"), {},
                        [&](const LabelledSector& sector) { distances.take(sector); });
-    std::vector<ByteString> packets = turnsOf(4);
+    std::vector<ByteString> packets = velodyneTurns(4);
     const auto first_late = packets.begin() + 20, end_late = first_late + 15;
     const std::vector<ByteString> late(first_late, end_late);
     packets.erase(first_late, end_late);
@@ -256,7 +256,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
         EXPECT_EQ(add(packet, now_s + 1e-5, stream), Taken::TooLate);
     }
     EXPECT_EQ(stream.segmenter().sectors(), sectors);
-    addAll(turnsOf(1, 1400000), stream, now_s + 1e-4);
+    addAll(velodyneTurns(1, 1400000), stream, now_s + 1e-4);
     EXPECT_EQ(countFree(now_s + 1e-4 + kPackets * 1.33e-3), before);
     EXPECT_EQ(stream.counts().late, 15u);
     EXPECT_EQ(stream.counts().too_late, 15u);
@@ -266,7 +266,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
 
 /// A burst from a second, slower path: it contains neither a clock step nor new data.
 TEST_F(VelodyneStreamTest, DropsDuplicatesFromEarlierTurn) {
-    const std::vector<ByteString> packets = turnsOf(5);
+    const std::vector<ByteString> packets = velodyneTurns(5);
     addAll(packets, stream_);
     const std::size_t sectors = stream_.segmenter().sectors();
     const double now_s = 5 * kPackets * 1.33e-3;
@@ -276,14 +276,14 @@ TEST_F(VelodyneStreamTest, DropsDuplicatesFromEarlierTurn) {
     EXPECT_EQ(stream_.segmenter().sectors(), sectors);
     EXPECT_EQ(stream_.counts().duplicate, kPackets);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
-    addAll(turnsOf(1, 1500000), stream_, now_s + 1e-4);
+    addAll(velodyneTurns(1, 1500000), stream_, now_s + 1e-4);
     EXPECT_EQ(stream_.counts().packets, 6 * kPackets);
 }
 
 /// Packets are accepted as soon as they are certain not to be late.
 TEST_F(VelodyneStreamTest, SixteenLatePacketsSignalClockStep) {
-    addAll(turnsOf(2), stream_);
-    const auto again = turnsOf(1, 500000);
+    addAll(velodyneTurns(2), stream_);
+    const auto again = velodyneTurns(1, 500000);
     for (std::size_t i = 0; i < 20; ++i) {
         EXPECT_EQ(add(again[i], 0.3 + 1e-3 * static_cast<double>(i), stream_),
                   i < 15 ? Taken::TooLate : Taken::Yes);
@@ -294,19 +294,19 @@ TEST_F(VelodyneStreamTest, SixteenLatePacketsSignalClockStep) {
 }
 
 TEST_F(VelodyneStreamTest, CountsPacketsMissingInGap) {
-    addAll(turnsOf(2), stream_);
-    addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
+    addAll(velodyneTurns(2), stream_);
+    addAll(velodyneTurns(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
     EXPECT_EQ(stream_.counts().interruptions, 1u);
     EXPECT_EQ(stream_.counts().lost, 120u);
     EXPECT_EQ(stream_.counts().packets, 4 * kPackets);
 }
 
 TEST_F(VelodyneStreamTest, CountsModeChanges) {
-    addAll(turnsOf(2), stream_);
+    addAll(velodyneTurns(2), stream_);
     const std::size_t single = all_.label.size();
-    addAll(turnsOf(2, 1200000, true), stream_, 0.2);
+    addAll(velodyneTurns(2, 1200000, true), stream_, 0.2);
     EXPECT_TRUE(stream_.driver().isDual());
-    addAll(turnsOf(1, 1400000), stream_, 0.4);
+    addAll(velodyneTurns(1, 1400000), stream_, 0.4);
     stream_.flush();
     EXPECT_EQ(stream_.counts().mode_changes, 2u);
     EXPECT_EQ(stream_.counts().lost, 0u);
@@ -315,11 +315,11 @@ TEST_F(VelodyneStreamTest, CountsModeChanges) {
 }
 
 TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
-    const ByteString packet = turnsOf(1)[0];
+    const ByteString packet = velodyneTurns(1)[0];
     EXPECT_EQ(add("", 0, stream_), Taken::WrongSize);
     EXPECT_EQ(add(packet.substr(1), 0, stream_), Taken::WrongSize);
     EXPECT_EQ(add(ByteString(1206, 'x'), 0, stream_), Taken::WrongSize);
-    EXPECT_EQ(add(turnsOf(1, 0, false, "HDL-32E")[0], 0, stream_), Taken::OtherSensor);
+    EXPECT_EQ(add(velodyneTurns(1, 0, false, "HDL-32E")[0], 0, stream_), Taken::OtherSensor);
     ByteString unsound = packet;
     for (int block = 0; block < 12; ++block) {
         unsound[100 * block + 2] = '\xff';  // an azimuth beyond the turn
@@ -338,7 +338,7 @@ TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
 
 /// Two valid blocks are far apart: at their rate, the whole packet would sweep more than a turn.
 TEST_F(VelodyneStreamTest, AcceptsPacketWithImplausibleSweep) {
-    ByteString packet = turnsOf(1)[0];
+    ByteString packet = velodyneTurns(1)[0];
     const auto setAzimuth = [&](int block, unsigned centidegrees) {
         packet[100 * block + 2] = static_cast<char>(centidegrees & 0xff);
         packet[100 * block + 3] = static_cast<char>(centidegrees >> 8);
@@ -354,7 +354,7 @@ TEST_F(VelodyneStreamTest, AcceptsPacketWithImplausibleSweep) {
 
 /// The directions of an unsound block are unknown, so no sweep covers them.
 TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
-    auto packets = turnsOf(1);
+    auto packets = velodyneTurns(1);
     const auto setHeader = [&](int block, char value) {
         packets[20][100 * block] = packets[20][100 * block + 1] = value;
     };
@@ -383,7 +383,7 @@ TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
 
 /// One block of a dual-return firing does not cover the directions of the other block.
 TEST_F(VelodyneStreamTest, HalfFiringIsNotSwept) {
-    auto packets = turnsOf(1, 1000000, true);
+    auto packets = velodyneTurns(1, 1000000, true);
     packets[40][100 * 5] = '\0';
     std::vector<Sweep> swept;
     LidarStream stream(sensors::makeDriver("VLP-16"), {}, [&](const LabelledSector& sector) {
@@ -397,7 +397,7 @@ TEST_F(VelodyneStreamTest, HalfFiringIsNotSwept) {
 }
 
 TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
-    const auto packets = turnsOf(1);
+    const auto packets = velodyneTurns(1);
     std::mt19937 random(1);
     std::size_t given = 0;
     for (int k = 0; k < 3000; ++k) {
@@ -494,7 +494,7 @@ TEST(VelodyneStreams, MasksAirframe) {
     settings.airframe.parts.spheres.push_back({{8, 3, 0}, 3});
     Labelled all;
     LidarStream stream(sensors::makeDriver("VLP-16"), settings, into(all));
-    addAll(turnsOf(2), stream);
+    addAll(velodyneTurns(2), stream);
     stream.flush();
     const auto masked = std::count(all.label.begin(), all.label.end(), Label::Unclassified);
     EXPECT_GT(masked, 50);

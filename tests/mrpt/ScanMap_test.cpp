@@ -43,8 +43,8 @@ double lengthIn(const Voxel& v, const Eigen::Vector3d& from, const Eigen::Vector
     return std::max(0.0, last - first) * (to - from).norm();
 }
 
-MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi,
-                  const Eigen::Vector3f& origin = {0.03f, 0.05f, 0.07f}) {
+MappedScan mappedScanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi,
+                        const Eigen::Vector3f& origin = {0.03f, 0.05f, 0.07f}) {
     return {0, origin, points, std::vector<Label>(points.size(), label), {}, {}};
 }
 
@@ -138,7 +138,7 @@ TEST(ScanMap, ClearsUpToWall) {
         for (float z = -1; z <= 1; z += 0.05f) wall.emplace_back(5.1f, y, z);
     }
     ScanMap map({MapContent::Full, 0.2, 20});
-    map.insert(scanOf(wall));
+    map.insert(mappedScanOf(wall));
     for (double y = -1.9; y < 2; y += 0.2) {
         EXPECT_EQ(State::Occupied, stateAt(map, {5.1, y, 0.1}));
         EXPECT_EQ(State::Free, stateAt(map, {4.9, y, 0.1}));
@@ -150,7 +150,7 @@ TEST(ScanMap, IgnoresNonFiniteReturns) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const float height_m : {0.0f, 50.0f, -50.0f}) {
-        MappedScan scan = scanOf({{kNan, 0, 0}, {kInfinity, 0, 0}, {0, 1e30f, -1e38f}});
+        MappedScan scan = mappedScanOf({{kNan, 0, 0}, {kInfinity, 0, 0}, {0, 1e30f, -1e38f}});
         scan.origin_m = {0, 0, height_m};
         ScanMap map({MapContent::Full, 0.2, 20});
         map.insert(scan);
@@ -159,7 +159,7 @@ TEST(ScanMap, IgnoresNonFiniteReturns) {
 }
 
 TEST(ScanMap, GroundRaysOnlyClear) {
-    MappedScan scan = scanOf({{5.1f, 0.1f, -1.9f}, {3.1f, 2.1f, 0.1f}});
+    MappedScan scan = mappedScanOf({{5.1f, 0.1f, -1.9f}, {3.1f, 2.1f, 0.1f}});
     scan.labels[0] = Label::Rou;
     ScanMap map({MapContent::RoiAndRays, 0.2, 20});
     map.insert(scan);
@@ -174,9 +174,9 @@ TEST(ScanMap, GroundRaysOnlyClear) {
 
 TEST(ScanMap, ClearsMovedObstacles) {
     ScanMap map({MapContent::RoiAndRays, 0.2, 20});
-    map.insert(scanOf({{3.1f, 0.1f, 0.1f}}));
+    map.insert(mappedScanOf({{3.1f, 0.1f, 0.1f}}));
     ASSERT_EQ(State::Occupied, stateAt(map, {3.1, 0.1, 0.1}));
-    for (int i = 0; i < 5; ++i) map.insert(scanOf({{9.1f, 0.1f, 0.1f}}, Label::Rou));
+    for (int i = 0; i < 5; ++i) map.insert(mappedScanOf({{9.1f, 0.1f, 0.1f}}, Label::Rou));
     EXPECT_EQ(State::Free, stateAt(map, {3.1, 0.1, 0.1}));
 }
 
@@ -224,10 +224,10 @@ TEST(ScanMap, UsesGivenProbabilities) {
     options.greatest_probability = 0.95;
     ScanMap map(options);
     const auto at = [&](float x) { return map.tree().search(x, 0.1f, 0.1f)->getOccupancy(); };
-    map.insert(scanOf({{2.1f, 0.1f, 0.1f}}));
+    map.insert(mappedScanOf({{2.1f, 0.1f, 0.1f}}));
     EXPECT_NEAR(at(2.1f), 0.9, 1e-6);
     EXPECT_NEAR(at(1.1f), 0.3, 1e-6);
-    map.insert(scanOf({{2.1f, 0.1f, 0.1f}}));
+    map.insert(mappedScanOf({{2.1f, 0.1f, 0.1f}}));
     EXPECT_NEAR(at(2.1f), 0.95, 1e-6);
     EXPECT_NEAR(at(1.1f), 0.25, 1e-6);
 }

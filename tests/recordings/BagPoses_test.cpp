@@ -9,13 +9,12 @@ namespace hagen::recordings {
 namespace {
 
 using mrpt::poses::CPose3D;
+using test::kBagStart_s;
 using test::ReadBag;
 using test::SentMessage;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kStart_s = test::kBagStart_s;
 
 /// Poses of the vehicle and mounts of its sensors.
 using BagPosesTest = test::BagTest;
@@ -23,9 +22,9 @@ using BagPosesTest = test::BagTest;
 /// A message with one transform on /tf.
 SentMessage moved(double since_s, const std::string& parent, const std::string& child, double x,
                   double y, double z, double yaw_rad = 0) {
-    return test::sentMessage("/tf", "tf2_msgs/TFMessage", kStart_s + since_s,
+    return test::sentMessage("/tf", "tf2_msgs/TFMessage", kBagStart_s + since_s,
                              [&](test::MessageBytes& bytes) {
-                                 bytes.number(std::uint32_t{1}).header(kStart_s + since_s, parent);
+                                 bytes.number(1u).header(kBagStart_s + since_s, parent);
                                  bytes.text(child).pose(x, y, z, yaw_rad);
                              });
 }
@@ -73,9 +72,9 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
     EXPECT_FALSE(read({cloud("/points")}).scans->plan().poses);
     // Infrequent poses (a goal, or map corrections) do not place scans.
     const auto seldom = [&](double since_s) {
-        return test::sentMessage("/goal", "geometry_msgs/PoseStamped", kStart_s + since_s,
+        return test::sentMessage("/goal", "geometry_msgs/PoseStamped", kBagStart_s + since_s,
                                  [&](test::MessageBytes& bytes) {
-                                     bytes.header(kStart_s + since_s, "map").pose(9, 9, 9);
+                                     bytes.header(kBagStart_s + since_s, "map").pose(9, 9, 9);
                                  });
     };
     const ReadBag goals = read(
@@ -149,9 +148,9 @@ TEST_F(BagPosesTest, ComposesMovingTransforms) {
 
 TEST_F(BagPosesTest, ComposesOdometryWithTransforms) {
     const auto flown = [](double since_s) {
-        return test::sentMessage("/odom", "nav_msgs/Odometry", kStart_s + since_s,
+        return test::sentMessage("/odom", "nav_msgs/Odometry", kBagStart_s + since_s,
                                  [&](test::MessageBytes& bytes) {
-                                     bytes.header(kStart_s + since_s, "odom");
+                                     bytes.header(kBagStart_s + since_s, "odom");
                                      bytes.text("base_footprint");
                                      bytes.pose(10 * since_s, 0, 0, M_PI / 2);
                                      for (int i = 0; i < 36 + 6 + 36; ++i) bytes.number(0.0);
@@ -214,8 +213,8 @@ TEST_F(BagPosesTest, IgnoresMapTransforms) {
 
 TEST_F(BagPosesTest, ReportsSensorOnOtherFrame) {
     const SentMessage imu =
-        test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s, [](test::MessageBytes& bytes) {
-            bytes.header(kStart_s, "imu");
+        test::sentMessage("/imu", "sensor_msgs/Imu", kBagStart_s, [](test::MessageBytes& bytes) {
+            bytes.header(kBagStart_s, "imu");
             for (const double part : {0.0, 0.0, 0.0, 1.0}) bytes.number(part);
             for (int i = 0; i < 9 + 2 * (3 + 9); ++i) bytes.number(0.0);
         });
@@ -249,12 +248,12 @@ TEST_F(BagPosesTest, IgnoresMountInOtherFrame) {
 TEST_F(BagPosesTest, SkipsUnreadableTransform) {
     const auto transforms = [](const std::string& topic) {
         return test::sentMessage(
-            topic, "tf2_msgs/TFMessage", kStart_s, [](test::MessageBytes& bytes) {
+            topic, "tf2_msgs/TFMessage", kBagStart_s, [](test::MessageBytes& bytes) {
                 bytes.number(std::uint32_t{3});
-                bytes.header(kStart_s, "base_link").text("front").pose(1, 0, 0);
-                bytes.header(kStart_s, "base_link").text("broken");
+                bytes.header(kBagStart_s, "base_link").text("front").pose(1, 0, 0);
+                bytes.header(kBagStart_s, "base_link").text("broken");
                 for (int i = 0; i < 7; ++i) bytes.number(0.0);
-                bytes.header(kStart_s, "base_link").text("rear").pose(-1, 0, 0);
+                bytes.header(kBagStart_s, "base_link").text("rear").pose(-1, 0, 0);
             });
     };
     const std::vector<SentMessage> clouds{cloud("/front", 0, "front"), cloud("/rear", 0, "rear"),
@@ -278,10 +277,10 @@ TEST_F(BagPosesTest, CountsExcessFrames) {
         const auto write = [&](test::MessageBytes& bytes) {
             bytes.number(static_cast<std::uint32_t>(frames));
             for (std::size_t i = 0; i < frames; ++i) {
-                bytes.header(kStart_s, "base_link").text("f" + std::to_string(i)).pose(1, 0, 0);
+                bytes.header(kBagStart_s, "base_link").text("f" + std::to_string(i)).pose(1, 0, 0);
             }
         };
-        return test::sentMessage(topic, "tf2_msgs/TFMessage", kStart_s, write);
+        return test::sentMessage(topic, "tf2_msgs/TFMessage", kBagStart_s, write);
     };
     const ReadBag bag = read({cloud("/points"), transforms("/tf", kMaxMovingFrames + 2),
                               // A known frame is not counted as excess.

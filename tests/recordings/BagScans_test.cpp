@@ -20,6 +20,7 @@ using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
 using mrpt::poses::CPose3D;
 using test::ByteString;
+using test::kBagStart_s;
 using test::ReadBag;
 using test::readBag;
 using test::SentMessage;
@@ -29,7 +30,6 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
 namespace fs = std::filesystem;
-constexpr double kStart_s = test::kBagStart_s;
 
 std::vector<float> xOf(const CObservation::Ptr& scan) {
     const auto& x_m =
@@ -69,9 +69,9 @@ TEST(BagScans, ReportsOtherTypesOnTopic) {
     const test::TemporaryFolder folder;
     for (const char* name : {"mixed.mcap", "mixed.bag"}) {
         const std::vector<SentMessage> messages{
-            test::cloudMessage("/points", kStart_s, "lidar", {1, 2, 3, 4}),
-            test::odometryMessage("/points", kStart_s + 0.1, "odom", "base", 1, 2, 3),
-            test::stringMessage("/points", kStart_s + 0.2, "none")};
+            test::cloudMessage("/points", kBagStart_s, "lidar", {1, 2, 3, 4}),
+            test::odometryMessage("/points", kBagStart_s + 0.1, "odom", "base", 1, 2, 3),
+            test::stringMessage("/points", kBagStart_s + 0.2, "none")};
         const fs::path file = folder / name;
         test::writeBytes(
             file, file.extension() == ".bag" ? test::ros1BagOf(messages) : test::mcapOf(messages));
@@ -94,7 +94,7 @@ TEST_P(Fixture, ReadsEveryMessageType) {
     EXPECT_EQ(table->rings()[4], 5);
     EXPECT_NEAR(table->times_s()[4], 0.005f, 1e-6f);
     EXPECT_EQ(table->table().fields.size(), 6u);
-    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(read.of("cloud")[0]->timestamp), kStart_s + 0.2);
+    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(read.of("cloud")[0]->timestamp), kBagStart_s + 0.2);
     ASSERT_EQ(read.of("organised").size(), 1u);
     expectPoints(read.of("organised")[0]);
     ASSERT_EQ(read.of("livox").size(), 1u);
@@ -113,7 +113,7 @@ TEST_P(Fixture, ReadsEveryMessageType) {
     ASSERT_TRUE(velodyne);
     ASSERT_EQ(velodyne->scan_packets.size(), 1u);
     EXPECT_EQ(test::bytesOf(velodyne->scan_packets[0]).substr(1100 + 4, 3), "\xc4\x09\x64");
-    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(velodyne->timestamp), kStart_s + 0.35);
+    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(velodyne->timestamp), kBagStart_s + 0.35);
     EXPECT_THAT(read.scans->remarks(),
                 Contains(HasSubstr("unused topics: /ouster/lidar_packets (ouster_ros/PacketMsg, 1 "
                                    "message), /camera/image (std_msgs/String, 1 message)")));
@@ -187,7 +187,7 @@ TEST_F(BagScansTest, RejectsMissingTopics) {
 TEST_F(BagScansTest, PrefersPacketsToClouds) {
     const auto scan = test::poleScanFrom(1, "lidar");
     const std::vector<SentMessage> messages{
-        test::velodyneMessage("/velodyne_packets", kStart_s, "velodyne", *scan, 1.3e-3),
+        test::velodyneMessage("/velodyne_packets", kBagStart_s, "velodyne", *scan, 1.3e-3),
         cloud("/velodyne_points", 0, "velodyne"), cloud("/rear", 0, "rear")};
     const ReadBag both = read(messages);
     EXPECT_THAT(both.labels(), UnorderedElementsAre("rear", "velodyne_packets"));
@@ -205,12 +205,12 @@ TEST_F(BagScansTest, PrefersPacketsToClouds) {
     auto unknown = *scan;
     for (auto& packet : unknown.scan_packets) reinterpret_cast<char*>(&packet)[1205] = '\x61';
     const ReadBag clouds =
-        read({test::velodyneMessage("/velodyne_packets", kStart_s, "velodyne", unknown, 1.3e-3),
+        read({test::velodyneMessage("/velodyne_packets", kBagStart_s, "velodyne", unknown, 1.3e-3),
               messages[1]});
     EXPECT_THAT(clouds.labels(), ElementsAre("velodyne_points"));
     EXPECT_THAT(clouds.scans->remarks(), Contains(HasSubstr("not from a known Velodyne")));
     const ReadBag none =
-        read({test::velodyneMessage("/velodyne_packets", kStart_s, "velodyne", unknown, 1.3e-3)},
+        read({test::velodyneMessage("/velodyne_packets", kBagStart_s, "velodyne", unknown, 1.3e-3)},
              {{"/velodyne_packets"}, {}});
     EXPECT_THAT(none.failed_because, HasSubstr("packets from an unknown Velodyne (model id 0x61)"));
 }
@@ -218,7 +218,8 @@ TEST_F(BagScansTest, PrefersPacketsToClouds) {
 TEST_F(BagScansTest, DetectsVelodyneByMajority) {
     const auto scan = test::poleScanFrom(1, "lidar");
     const auto sent = [&](double after_s, const CObservationVelodyneScan& packets) {
-        return test::velodyneMessage("/packets", kStart_s + after_s, "velodyne", packets, 1.3e-3);
+        return test::velodyneMessage("/packets", kBagStart_s + after_s, "velodyne", packets,
+                                     1.3e-3);
     };
     CObservationVelodyneScan none, other = *scan, unknown = *scan;
     for (CObservationVelodyneScan* one : {&other, &unknown}) one->scan_packets.resize(1);
@@ -236,7 +237,7 @@ TEST_F(BagScansTest, DetectsVelodyneByMajority) {
 TEST_F(BagScansTest, IgnoresCloudsInFixedFrames) {
     const ReadBag bag = read(
         {cloud("/points"), cloud("/registered", 0, "camera_init"), cloud("/map_cloud", 0, "map"),
-         test::odometryMessage("/odom", kStart_s, "camera_init", "body", 0, 0, 0)});
+         test::odometryMessage("/odom", kBagStart_s, "camera_init", "body", 0, 0, 0)});
     EXPECT_THAT(bag.labels(), ElementsAre("points"));
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("/registered is not read: its clouds are in the frame "
@@ -248,8 +249,8 @@ TEST_F(BagScansTest, IgnoresCloudsInFixedFrames) {
 
 SentMessage imuMessage(double since_s, const std::array<double, 4>& xyzw, double up_m_s2 = 9.81,
                        const std::string& frame = "imu") {
-    return test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s + since_s, [&](auto& bytes) {
-        bytes.header(kStart_s + since_s, frame);
+    return test::sentMessage("/imu", "sensor_msgs/Imu", kBagStart_s + since_s, [&](auto& bytes) {
+        bytes.header(kBagStart_s + since_s, frame);
         for (const double part : xyzw) bytes.number(part);
         for (int i = 0; i < 9 + 3 + 9 + 2; ++i) bytes.number(0.0);
         bytes.number(up_m_s2);
@@ -270,7 +271,7 @@ TEST_F(BagScansTest, SortsMessagesByTime) {
     ASSERT_EQ(bag.observations.size(), 20u);
     for (std::size_t i = 0; i < 20; ++i) {
         const double since_s = 0.1 * static_cast<double>(i / 4) - (i % 2 == 0 ? 0.01 : 0);
-        EXPECT_NEAR(mrpt::Clock::toDouble(bag.observations[i]->timestamp), kStart_s + since_s,
+        EXPECT_NEAR(mrpt::Clock::toDouble(bag.observations[i]->timestamp), kBagStart_s + since_s,
                     1e-6);
         EXPECT_EQ(bag.observations[i]->sensorLabel, i % 2 == 0 ? "/imu" : i % 4 == 1 ? "b" : "a");
     }
@@ -304,8 +305,8 @@ TEST_F(BagScansTest, ImuInLidarFrameContainsMount) {
 
 /// A cloud of 2 rows of 10 points (i, 2, -3).
 SentMessage cloudOf(std::uint32_t row_step, bool is_flagged_big_endian, bool is_big_endian) {
-    return test::sentMessage("/points", "sensor_msgs/PointCloud2", kStart_s, [&](auto& bytes) {
-        bytes.header(kStart_s, "lidar").number(std::uint32_t{2}).number(std::uint32_t{10});
+    return test::sentMessage("/points", "sensor_msgs/PointCloud2", kBagStart_s, [&](auto& bytes) {
+        bytes.header(kBagStart_s, "lidar").number(std::uint32_t{2}).number(std::uint32_t{10});
         bytes.number(std::uint32_t{3});
         for (const std::uint32_t i : {0u, 1u, 2u}) {
             bytes.text(std::string(1, "xyz"[i])).number(4 * i);
@@ -370,7 +371,7 @@ TEST_F(BagScansTest, ReportsUnreadableMessages) {
     // The width follows the sequence number, time, frame and height.
     const std::size_t width_at = 4 + 8 + 4 + 5 + 4;
     lying.ros1.replace(width_at, 4, "\xff\xff\xff\xff");
-    SentMessage text = test::stringMessage("/points", kStart_s + 0.25, "no cloud at all");
+    SentMessage text = test::stringMessage("/points", kBagStart_s + 0.25, "no cloud at all");
     text.type = "sensor_msgs/PointCloud2";
     const ReadBag bag = read({cloud("/points"), cut, lying, text, cloud("/points", 0.3)});
     EXPECT_EQ(bag.failed_because, "");
@@ -399,7 +400,7 @@ TEST_F(BagScansTest, ScalesNormalizedTimesByPeriod) {
     const auto lastTime = [&](const std::vector<double>& since_s) {
         std::vector<SentMessage> messages;
         for (const double at_s : since_s) {
-            messages.push_back(test::cloudMessage("/points", kStart_s + at_s, "lidar",
+            messages.push_back(test::cloudMessage("/points", kBagStart_s + at_s, "lidar",
                                                   {1, 2, 3, 0, 4, 5, 6, 0.95f}));
             test::ByteString& bytes = messages.back().ros1;
             const test::ByteString name("\x09\0\0\0intensity", 13);
@@ -420,7 +421,7 @@ TEST_F(BagScansTest, RejectsUnknownSerialisations) {
                 HasSubstr("it is not plain CDR (its header is 0 7)"));
     const ReadBag cut = readBag(test::writeDb3(
         folder_ / "flight.db3",
-        {test::sentMessage("/points", "sensor_msgs/PointCloud2", kStart_s,
+        {test::sentMessage("/points", "sensor_msgs/PointCloud2", kBagStart_s,
                            [](test::MessageBytes& bytes) { bytes.number(std::uint32_t{0}); })}));
     EXPECT_THAT(cut.failed_because, HasSubstr("bytes missing at its end"));
 }
@@ -432,11 +433,11 @@ TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
     for (std::uint16_t id = 1; id <= 3; ++id) {
         for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, id))) {
             messages.push_back(test::sentMessage(
-                "/ouster/lidar_packets", "ouster_ros/PacketMsg", kStart_s + 0.1 * id,
+                "/ouster/lidar_packets", "ouster_ros/PacketMsg", kBagStart_s + 0.1 * id,
                 [&](test::MessageBytes& bytes) { bytes.counted(packet + '\0'); }));
         }
         messages.push_back(test::sentMessage(
-            "/ouster/imu_packets", "ouster_ros/PacketMsg", kStart_s,
+            "/ouster/imu_packets", "ouster_ros/PacketMsg", kBagStart_s,
             [&](test::MessageBytes& bytes) { bytes.counted(test::ByteString(48, '\0')); }));
     }
     EXPECT_THAT(read(messages).labels(), ElementsAre("ouster_points"));
@@ -449,14 +450,15 @@ TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
     const fs::path json = folder_.write("os.json", test::ousterJson());
     EXPECT_EQ(read(messages, {{}, json}).of("ouster_lidar_packets").size(), 3u);
     // The metadata may be the last message.
-    messages.push_back(test::stringMessage("/ouster/metadata", kStart_s + 1, test::ousterJson()));
+    messages.push_back(
+        test::stringMessage("/ouster/metadata", kBagStart_s + 1, test::ousterJson()));
     const ReadBag bag = read(messages);
     EXPECT_THAT(bag.labels(), ElementsAre("ouster_lidar_packets"));
     ASSERT_EQ(bag.of("ouster_lidar_packets").size(), 3u);
     EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("/ouster/points is not read")));
     EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("OS-0-32-U1, ")));
     const auto scan = bag.of("ouster_lidar_packets")[1];
-    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(scan->timestamp), kStart_s + 0.2);
+    EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(scan->timestamp), kBagStart_s + 0.2);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).x(), 3, 1e-9);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).z(), sensor.lidar_to_sensor.translation().z(), 1e-9);
     // These packets have another profile.
@@ -469,7 +471,7 @@ TEST_F(BagScansTest, KeepsTurnBeforeTruncation) {
     const auto scan = test::poleScanFrom(1, "lidar");
     std::vector<SentMessage> messages;
     for (int i = 0; i < 3; ++i) {
-        messages.push_back(test::velodyneMessage("/velodyne_packets", kStart_s + 0.1 * i,
+        messages.push_back(test::velodyneMessage("/velodyne_packets", kBagStart_s + 0.1 * i,
                                                  "velodyne", *scan, 1.3e-3));
     }
     test::BagShape shape;
@@ -489,7 +491,7 @@ TEST_F(BagScansTest, KeepsTurnBeforeTruncation) {
 TEST_F(BagScansTest, ReportsUnusedFieldsAndPoints) {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     const auto withRing = [](double since_s, float ring, float x) {
-        SentMessage message = test::cloudMessage("/points", kStart_s + since_s, "lidar",
+        SentMessage message = test::cloudMessage("/points", kBagStart_s + since_s, "lidar",
                                                  {x, 2, 3, ring, kNone, 6, 7, 8});
         const std::string intensity("\x09\0\0\0intensity", 13);
         message.ros1.replace(message.ros1.find(intensity), intensity.size(),
@@ -507,9 +509,9 @@ TEST_F(BagScansTest, ReportsUnusedFieldsAndPoints) {
 
 TEST_F(BagScansTest, CountsLivoxPointsWithoutRange) {
     const auto livox = [](const std::string& driver) {
-        return test::sentMessage("/" + driver, driver + "/CustomMsg", kStart_s,
+        return test::sentMessage("/" + driver, driver + "/CustomMsg", kBagStart_s,
                                  [](test::MessageBytes& bytes) {
-                                     bytes.header(kStart_s, "livox").number(std::uint64_t{0});
+                                     bytes.header(kBagStart_s, "livox").number(std::uint64_t{0});
                                      bytes.number(std::uint32_t{3}).raw(std::string(4, '\0'));
                                      bytes.number(std::uint32_t{3});
                                      for (const float x_m : {0.0f, 4.0f, 0.0f}) {

@@ -17,16 +17,16 @@ using testing::Each;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-constexpr double kStart_s = 1700000000;
+constexpr double kBagSourceStart_s = 1700000000;
 
 /// Two LiDARs with three clouds each, on a vehicle that moves at 10 m/s.
 class BagSourceTest : public testing::Test {
  protected:
     BagSourceTest() {
         messages_.push_back(
-            test::transformMessage("/tf_static", kStart_s, "base_link", "front", 0, 0, 3));
+            test::transformMessage("/tf_static", kBagSourceStart_s, "base_link", "front", 0, 0, 3));
         for (int i = 0; i < 3; ++i) {
-            const double time_s = kStart_s + 0.1 * i;
+            const double time_s = kBagSourceStart_s + 0.1 * i;
             messages_.push_back(test::cloudMessage("/front", time_s, "front", {1, 2, 3, 4}));
             messages_.push_back(test::cloudMessage("/rear", time_s, "rear", {5, 6, 7, 8}));
             messages_.push_back(
@@ -77,7 +77,7 @@ TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     const auto poseOf = [&](const std::string& moved) {
         std::vector<test::SentMessage> messages;
         for (int i = 0; i < 5; ++i) {
-            const double time_s = kStart_s + 0.1 * i;
+            const double time_s = kBagSourceStart_s + 0.1 * i;
             messages.push_back(test::transformMessage("/tf", time_s, "map", moved, i, 0, 0));
             messages.push_back(test::cloudMessage("/points", time_s, "lidar", {1, 2, 3, 4}));
         }
@@ -103,7 +103,7 @@ TEST_F(BagSourceTest, PrefersPosesFromFile) {
     source->usePoses(folder_ / "poses.txt");
     source->nextScan();
     EXPECT_NEAR(source->nextScan()->pose.sensor_pose->x(), 5, 1e-6);
-    writeTumPoses(folder_ / "poses.tum", {{kStart_s, CPose3D(9, 0, 0, 0, 0, 0)}});
+    writeTumPoses(folder_ / "poses.tum", {{kBagSourceStart_s, CPose3D(9, 0, 0, 0, 0, 0)}});
     source = open(options);
     source->usePoses(folder_ / "poses.tum");
     EXPECT_NEAR(source->nextScan()->pose.sensor_pose->x(), 9, 1e-6);

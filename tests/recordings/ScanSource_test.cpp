@@ -27,7 +27,7 @@ using testing::Not;
 namespace fs = std::filesystem;
 using Entries = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
-mrpt::Clock::time_point at(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
+mrpt::Clock::time_point timeAt(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
 
 /// A cloud with one return at x.
 Scan returnAt(float x_m) {
@@ -39,16 +39,16 @@ Scan returnAt(float x_m) {
     return scan;
 }
 
-mrpt::obs::CObservationPointCloud::Ptr cloud(double seconds, const std::string& label) {
+mrpt::obs::CObservationPointCloud::Ptr labelledCloud(double seconds, const std::string& label) {
     const auto observation =
-        observations::observationOf(returnAt(static_cast<float>(seconds)), label, at(seconds));
+        observations::observationOf(returnAt(static_cast<float>(seconds)), label, timeAt(seconds));
     observation->sensorPose = CPose3D(0, 0, 0.25, 0, 0, 0);
     return observation;
 }
 
 mrpt::obs::CObservationRobotPose::Ptr pose(double seconds, double x_m, double pitch_rad) {
     auto observation = mrpt::obs::CObservationRobotPose::Create();
-    observation->timestamp = at(seconds);
+    observation->timestamp = timeAt(seconds);
     observation->pose.mean = CPose3D(x_m, 0, 1, 0, pitch_rad, 0);
     return observation;
 }
@@ -91,8 +91,9 @@ class ScanSourceTest : public testing::Test {
     /// Entries with two LiDARs, a comment, and a frame with one scan per LiDAR.
     Entries mixed() const {
         auto comment = mrpt::obs::CObservationComment::Create();
-        return {cloud(1, "front"), comment, frameOf({cloud(3, "front"), cloud(4, "rear")}),
-                cloud(5, "rear"), cloud(6, "front")};
+        return {labelledCloud(1, "front"), comment,
+                frameOf({labelledCloud(3, "front"), labelledCloud(4, "rear")}),
+                labelledCloud(5, "rear"), labelledCloud(6, "front")};
     }
     test::TemporaryFolder folder_;
 };
@@ -110,7 +111,7 @@ mrpt::obs::CObservationPointCloud::Ptr spin(double seconds, const std::string& l
                                             const std::string& model, int columns = 500) {
     const test::SimpleScene scene{{{{-30, -30, -9}, {30, 30, 30}}}, {}, {}, true};
     const Scan scan = test::scanScene(scene, sensorModel(model), columns, {0, 0, 2}).scan;
-    return observations::observationOf(scan, label, at(seconds));
+    return observations::observationOf(scan, label, timeAt(seconds));
 }
 
 /// "entry:label:sensor" of every scan; "-" if no beams are known.
@@ -124,10 +125,11 @@ std::vector<std::string> beamsPulledFrom(ScanSource& source) {
 }
 
 TEST_F(ScanSourceTest, RecoversBeamsByLabel) {
-    const auto source = openRecording(rawlogOf(
-        {cloud(1, "front"), frameOf({spin(2, "front", "VLP-16"), spin(2, "rear", "HDL-32E")}),
-         spin(3, "front", "VLP-16"), cloud(4, "top"), test::poleScanFrom(5, "packets"),
-         spin(6, "late", "HDL-64E")}));
+    const auto source =
+        openRecording(rawlogOf({labelledCloud(1, "front"),
+                                frameOf({spin(2, "front", "VLP-16"), spin(2, "rear", "HDL-32E")}),
+                                spin(3, "front", "VLP-16"), labelledCloud(4, "top"),
+                                test::poleScanFrom(5, "packets"), spin(6, "late", "HDL-64E")}));
     source->useSettings({});
     EXPECT_THAT(beamsPulledFrom(*source),
                 ElementsAre("0:front:VLP-16", "1:front:VLP-16", "1:rear:HDL-32E", "2:front:VLP-16",
@@ -207,7 +209,7 @@ TEST_F(ScanSourceTest, InterruptsRecovery) {
     int asked = 0;
     SourceOptions options;
     options.keep_going = [&] { return ++asked <= 3; };
-    const auto source = openRecording(rawlogOf(Entries(20, cloud(1, "a"))), options);
+    const auto source = openRecording(rawlogOf(Entries(20, labelledCloud(1, "a"))), options);
     source->useSettings({});
     EXPECT_THROW(source->nextScan(), Interrupted);
     EXPECT_EQ(asked, 4);
@@ -287,7 +289,7 @@ TEST_F(ScanSourceTest, ConvertsFolderScansToObjects) {
 
 TEST_F(ScanSourceTest, UsesLaterPosesFromRawlog) {
     const auto source =
-        openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
+        openRecording(rawlogOf({pose(0.9, 5, 0), labelledCloud(1, "front"), pose(1.1, 7, 0)}));
     source->usePoses({});
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
     const auto scan = source->nextScan();
@@ -301,8 +303,8 @@ TEST_F(ScanSourceTest, UsesAttitudeFromSkippedEntries) {
     SourceOptions options;
     options.first_scan = 1;
     const auto source =
-        openRecording(rawlogOf({pose(0.9, 0, 0.1), pose(0.95, 0, 0.2), cloud(0.96, "front"),
-                                cloud(1, "front"), pose(1.05, 0, 0.3)}),
+        openRecording(rawlogOf({pose(0.9, 0, 0.1), pose(0.95, 0, 0.2), labelledCloud(0.96, "front"),
+                                labelledCloud(1, "front"), pose(1.05, 0, 0.3)}),
                       options);
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.attitude);
@@ -311,7 +313,7 @@ TEST_F(ScanSourceTest, UsesAttitudeFromSkippedEntries) {
 
 TEST_F(ScanSourceTest, PrefersAttitudeFromPoseFile) {
     writeTumPoses(folder_ / "flight.tum", {{1001.0, CPose3D(3, 0, 0, 0, 0.4, 0)}});
-    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
+    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), labelledCloud(1, "front")}));
     source->usePoses(folder_ / "flight.tum");
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.attitude);
@@ -340,7 +342,7 @@ TEST_F(ScanSourceTest, AppliesKittiFileToSelectedLidar) {
 
 TEST_F(ScanSourceTest, KeepsAttitudeWithKittiFile) {
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(0, 0, 0, 0, 0.4, 0)});
-    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
+    const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), labelledCloud(1, "front")}));
     source->usePoses(folder_ / "poses.txt");
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.attitude && scan->pose.sensor_pose);
@@ -354,11 +356,11 @@ TEST_F(ScanSourceTest, ListsScanTimesForAllLidars) {
     const auto times = openRecording(rawlogOf(mixed()), options)->scanTimes();
     ASSERT_EQ(times.size(), 2u);
     EXPECT_EQ(times.at("front").size(), 3u);
-    EXPECT_THAT(times.at("rear"), ElementsAre(at(4), at(5)));
+    EXPECT_THAT(times.at("rear"), ElementsAre(timeAt(4), timeAt(5)));
 }
 
 TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
-    const auto source = openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front")}));
+    const auto source = openRecording(rawlogOf({pose(0.9, 5, 0), labelledCloud(1, "front")}));
     const auto before = source->scanTimes();
     source->usePoses({});
     EXPECT_EQ(source->scanTimes(), before);
@@ -490,7 +492,7 @@ TEST_F(ScanSourceTest, DistinguishesSensorAndVehiclePoses) {
     const auto scans = openRecording(folder);
     scans->usePoses({});
     EXPECT_TRUE(scans->nextScan()->pose.is_of_sensor);
-    const fs::path log = rawlogOf({cloud(1, "front")});
+    const fs::path log = rawlogOf({labelledCloud(1, "front")});
     const auto vehicle = openRecording(log);
     vehicle->usePoses(folder / "poses.tum");
     EXPECT_FALSE(vehicle->nextScan()->pose.is_of_sensor);
@@ -499,7 +501,7 @@ TEST_F(ScanSourceTest, DistinguishesSensorAndVehiclePoses) {
     sensor->usePoses(folder_ / "kitti.txt");
     EXPECT_TRUE(sensor->nextScan()->pose.is_of_sensor);
     // An IMU or robot pose specifies the vehicle's attitude, even if there are poses of the sensor.
-    const auto both = openRecording(rawlogOf({pose(0.95, 0, 0.1), cloud(1, "front")}));
+    const auto both = openRecording(rawlogOf({pose(0.95, 0, 0.1), labelledCloud(1, "front")}));
     both->usePoses(folder_ / "kitti.txt");
     const auto scan = both->nextScan();
     ASSERT_TRUE(scan->pose.attitude);

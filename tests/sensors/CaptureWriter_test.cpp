@@ -22,7 +22,7 @@ TEST(CaptureWriter, WritesFilesReadableByCaptureFile) {
     const test::TemporaryFolder folder;
     const std::vector<std::string> contents{"", "a", std::string(1206, 'v'),
                                             std::string(65507, 'x')};
-    CaptureWriter writer(folder / "a.pcap");
+    sensors::CaptureWriter writer(folder / "a.pcap");
     for (const std::string& content : contents) writer.add(datagramOf(content));
     writer.flush();
     EXPECT_TRUE(isCapture(folder / "a.pcap"));
@@ -42,7 +42,7 @@ TEST(CaptureWriter, WritesFilesReadableByCaptureFile) {
 
 TEST(CaptureWriter, WritesIpv6) {
     const test::TemporaryFolder folder;
-    CaptureWriter writer(folder / "a.pcap");
+    sensors::CaptureWriter writer(folder / "a.pcap");
     Datagram sent = datagramOf("hello");
     sent.from_ip = {0xfe80000000000000, 0x0123456789abcdef};
     sent.to_ip = {0xff02000000000000, 1};
@@ -63,7 +63,7 @@ TEST(CaptureWriter, WritesIpv6) {
 /// As a receiver checks, the header's words, including the checksum, sum to ffff.
 TEST(CaptureWriter, WritesValidIpChecksums) {
     const test::TemporaryFolder folder;
-    CaptureWriter writer(folder / "a.pcap");
+    sensors::CaptureWriter writer(folder / "a.pcap");
     writer.add(datagramOf("hello"));
     writer.flush();
     const std::string bytes = test::readFile(folder / "a.pcap");
@@ -78,7 +78,7 @@ TEST(CaptureWriter, WritesValidIpChecksums) {
 /// If the program is killed, the file ends with a complete block.
 TEST(CaptureWriter, EndsWithWholeFrame) {
     const test::TemporaryFolder folder;
-    CaptureWriter writer(folder / "a.pcap");
+    sensors::CaptureWriter writer(folder / "a.pcap");
     int blocks = 0;
     for (int i = 0; i < 200; ++i) {
         blocks += writer.add(datagramOf(std::string(1206, 'v')));

@@ -1,11 +1,9 @@
-// Labels scans with the filter only, to compare processors:
-// label-points MODEL COLUMNS default|fast|numbered REPEAT FILE.bin...
-// Files contain float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all
-// labels and, if numbered, obstacles. A single filter segments each scan REPEAT times.
+// Labels scans with the filter only, to count instructions:
+// label-points MODEL COLUMNS default|fast REPEAT FILE.bin...
+// Files contain float32 x, y, z, intensity. A single filter segments each scan REPEAT times.
 #include <hagen/filter/HagenFilter.h>
 
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -28,49 +26,25 @@ hagen::Scan readScan(const std::string& name) {
     return scan;
 }
 
-/// An FNV-1a checksum.
-class Checksum {
- public:
-    void add(std::uint32_t value) {
-        for (int byte = 0; byte < 4; ++byte) {
-            sum_ = (sum_ ^ (value >> (8 * byte) & 0xff)) * 0x100000001b3;
-        }
-    }
-    unsigned long long sum() const { return sum_; }
-
- private:
-    std::uint64_t sum_ = 0xcbf29ce484222325;
-};
-
 void label(hagen::HagenFilter& filter, const hagen::SensorModel& sensor, const std::string& name,
            int repeat) {
     hagen::Scan scan = readScan(name);
     hagen::locateBeams(sensor, scan);
     for (int i = 1; i < repeat; ++i) filter.segment(scan);
     const hagen::SegmentationResult& result = filter.segment(scan);
-    Checksum sum;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        sum.add(static_cast<std::uint32_t>(result.returns.label[i]));
-    }
-    for (const std::int32_t component : result.returns.component) {
-        sum.add(static_cast<std::uint32_t>(component));
-    }
-    std::printf("%zu returns, %zu RoI, %016llx\n", scan.size(), result.returns.roi.size(),
-                sum.sum());
+    std::printf("%zu returns, %zu RoI\n", scan.size(), result.returns.roi.size());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc < 5) {
-        std::fprintf(stderr,
-                     "usage: label-points MODEL COLUMNS default|fast|numbered REPEAT FILE...\n");
+        std::fprintf(stderr, "usage: label-points MODEL COLUMNS default|fast REPEAT FILE...\n");
         return 2;
     }
     try {
         const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
         hagen::Options options;
-        options.number_obstacles = std::string(argv[3]) == "numbered";
         options.columns = std::atoi(argv[2]);
         options.raw_angles = std::string(argv[3]) == "fast";
         hagen::HagenFilter filter(sensor, options);
