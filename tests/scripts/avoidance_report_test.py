@@ -155,11 +155,12 @@ def test_sentences_follow_verdicts():
     def said(*rows):
         return report.maps_help(pairs(*rows), "At 4 m/s").removeprefix("At 4 m/s, compared with the RoI window, ")
 
-    assert said(equal, better, window) == "no map is better by 5 points in `gap`."
-    assert said(better, window) == "every map succeeds less often in `gap`."
-    assert said(worse, also, equal) == ("a map succeeds more often in `wires` (depth-image map by 30.0 and occupancy grid by 12.0 "
-                                        "points); no map is better by 5 points in `gap`.")
-    assert said(worse, open_) == ("a map succeeds more often in `wires` (depth-image map by 30.0 points); no map was shown to be "
+    assert said(equal, better, window) == ("no map is better by 5 points in `gap`; a map succeeds less often in `gap` (OctoMap by "
+                                           "48.0 points).")
+    assert said(better, window) == "a map succeeds less often in `gap` (every map by 48.0 points)."
+    assert said(worse, also, equal) == ("a map succeeds more often in `wires` (every map by up to 30.0 points); no map is better by "
+                                        "5 points in `gap`.")
+    assert said(worse, open_) == ("a map succeeds more often in `wires` (every map by 30.0 points); no map was shown to be "
                                   "better in `orchard`.")
     for no_conclusion in ((few,), (equal, few), (worse, few), (window,)):
         assert said(*no_conclusion) == "At 4 m/s: too few flights."
