@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -42,15 +41,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: label-points MODEL COLUMNS default|fast REPEAT FILE...\n");
         return 2;
     }
-    try {
-        const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
-        hagen::Options options;
-        options.columns = std::atoi(argv[2]);
-        options.raw_angles = std::string(argv[3]) == "fast";
-        hagen::HagenFilter filter(sensor, options);
-        for (int i = 5; i < argc; ++i) label(filter, sensor, argv[i], std::atoi(argv[4]));
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "label-points: %s\n", e.what());
-        return 1;
-    }
+    const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
+    hagen::Options options;
+    options.columns = std::atoi(argv[2]);
+    options.raw_angles = std::string(argv[3]) == "fast";
+    hagen::HagenFilter filter(sensor, options);
+    for (int i = 5; i < argc; ++i) label(filter, sensor, argv[i], std::atoi(argv[4]));
 }
