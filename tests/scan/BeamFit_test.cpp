@@ -10,7 +10,7 @@ namespace hagen {
 namespace {
 
 /// A turn of these beams with random ranges and elevation errors of up to `jitter_deg`.
-Scan scanOf(const std::vector<double>& beams_deg, float jitter_deg = 0.0f, unsigned seed = 1) {
+Scan scanOfBeams(const std::vector<double>& beams_deg, float jitter_deg = 0.0f, unsigned seed = 1) {
     test::Random random(seed);
     Scan scan;
     for (int column = 0; column < 600; ++column) {
@@ -44,7 +44,7 @@ TEST(BeamFit, KnownModelsFitOwnBeams) {
         for (const float beam_rad : sensor.elevations_rad) {
             beams_deg.push_back(degrees(static_cast<double>(beam_rad)));
         }
-        const auto fit = fitBeams(scanOf(beams_deg), sensor, 600);
+        const auto fit = fitBeams(scanOfBeams(beams_deg), sensor, 600);
         ASSERT_EQ(fit.has_value(), sensor.has_rings);
         if (!fit) continue;
         EXPECT_EQ(fit->returns, 600 * beams_deg.size());
@@ -59,23 +59,24 @@ TEST(BeamFit, FewerBeamsLeaveRowsEmpty) {
     // The scan has 16 blurred beams; the model's 64 beams are so dense that all returns fit.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
-        fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);
+        fitBeams(scanOfBeams(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);
     ASSERT_TRUE(fit);
     EXPECT_GT(fit->share(), 0.99f);
     EXPECT_NEAR(fit->filled, 0.25, 0.05);  // one return per four rows
     // With the true beams, every row has returns.
-    EXPECT_GT(fitBeams(scanOf(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
+    EXPECT_GT(fitBeams(scanOfBeams(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
 }
 
 TEST(BeamFit, CountsReturnsWithinTolerance) {
     // With uniform jitter of 0.8 degrees, half of the returns are within 0.4 degrees.
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"), 600);
+    const auto fit =
+        fitBeams(scanOfBeams(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->returns_share, 0.5, 0.02);
 }
 
 TEST(BeamFit, ShiftedBeamsDoNotFit) {
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -14, 16)), sensorModel("VLP-16"), 600);
+    const auto fit = fitBeams(scanOfBeams(beamsEvery(2, -14, 16)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->returns_share, 0.0f);
     EXPECT_EQ(fit->beams_seen, 0u);
@@ -85,14 +86,15 @@ TEST(BeamFit, ShiftedBeamsDoNotFit) {
 
 TEST(BeamFit, ReportsWrongBeamCount) {
     const std::vector<double> half_deg = beamsEvery(4, -15, 15);
-    const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"), 600);
+    const auto fewer = fitBeams(scanOfBeams(half_deg), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fewer);
     EXPECT_EQ(fewer->returns_share, 1.0f);
     EXPECT_EQ(fewer->beams_seen, 8u);
     EXPECT_EQ(fewer->beams, 15u);  // from -15 to 13 degrees
     EXPECT_FLOAT_EQ(fewer->share(), 8.0f / 15.0f);
 
-    const auto more = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(half_deg), 600);
+    const auto more =
+        fitBeams(scanOfBeams(beamsEvery(2, -15, 15)), customSensorModel(half_deg), 600);
     ASSERT_TRUE(more);
     EXPECT_EQ(more->beams_shown, 16u);
     EXPECT_EQ(more->beams_seen, 8u);
@@ -100,21 +102,21 @@ TEST(BeamFit, ReportsWrongBeamCount) {
 }
 
 TEST(BeamFit, IgnoresBeamsInSky) {
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 1)), sensorModel("VLP-16"), 600);
+    const auto fit = fitBeams(scanOfBeams(beamsEvery(2, -15, 1)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams, 9u);
     EXPECT_EQ(fit->share(), 1.0f);
 }
 
 TEST(BeamFit, CountsReturnsWithoutBeams) {
-    const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
+    const auto fit = fitBeams(scanOfBeams(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams_shown, 0u);
     EXPECT_NEAR(fit->share(), 0.4, 0.03);  // 0.8 of 2 degrees
 }
 
 TEST(BeamFit, NeedsEnoughReturns) {
-    Scan scan = scanOf({-15, 0, 15});
+    Scan scan = scanOfBeams({-15, 0, 15});
     scan.x_m.resize(kMinReturnsForBeams);
     scan.y_m.resize(kMinReturnsForBeams);
     scan.z_m.resize(kMinReturnsForBeams);
