@@ -1,12 +1,12 @@
 #include "Document.h"
 
-#include <embree3/rtcore.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include "evaluation/Breakdown.h"
 #include "evaluation/Latency.h"
+#include "simulation/Embree.h"
 
 #include "DroneSection.h"
 #include "HardSection.h"

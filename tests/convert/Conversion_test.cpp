@@ -472,7 +472,7 @@ TEST_P(ConversionTest, RejectsExternalRotatingScan) {
     scan.columnCount = 4;
     scan.rangeResolution = 0.01;
     scan.rangeImage.setZero(3, 4);
-    std::string bytes = test::bytesOf(scan);
+    std::string bytes = test::olderBytesOf(scan);
     bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // remove the images at the end
     bytes += '\1' + test::little32(8) + "scan.bin" + '\x88';
     test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);

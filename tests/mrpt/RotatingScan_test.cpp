@@ -229,7 +229,7 @@ TEST(RotatingScan, ReadsBothLayouts) {
     scan.rangeOtherLayers["LAST"](2, 3) = 9;
     std::vector<float> points(3 * 12);
     std::iota(points.begin(), points.end(), 1.0f);
-    const auto older = scanOf(test::bytesOf(scan));
+    const auto older = scanOf(test::olderBytesOf(scan));
     const auto newer = scanOf(test::newerBytesOf(scan, points));
     EXPECT_EQ(organizedPointsOf(*older), nullptr);
     ASSERT_NE(organizedPointsOf(*newer), nullptr);
@@ -251,7 +251,7 @@ TEST(RotatingScan, ReadsBothLayouts) {
             wide.rangeResolution = 1;
             wide.rangeImage.setZero(rows, columns);
             wide.rangeImage(rows - 1, columns - 1) = 7;
-            EXPECT_EQ(scanOf(test::bytesOf(wide))->rangeImage(rows - 1, columns - 1), 7);
+            EXPECT_EQ(scanOf(test::olderBytesOf(wide))->rangeImage(rows - 1, columns - 1), 7);
             EXPECT_EQ(scanOf(test::newerBytesOf(wide))->rangeImage(rows - 1, columns - 1), 7);
         }
     }
@@ -267,7 +267,7 @@ TEST(RotatingScan, RejectsTruncatedAndExternalScans) {
     std::string huge = bytes;
     huge.replace(huge.size() - 1 - 36 * 4 - 4, 4, "\xff\xff\xff\xff");
     EXPECT_THROW(test::objectOf(huge), std::exception);
-    const std::string older = test::bytesOf(scan);
+    const std::string older = test::olderBytesOf(scan);
     const std::size_t images = older.size() - 1 - (4 + 24 + 4 + 2);
     const std::string outside =
         older.substr(0, images) + '\1' + std::string("\x08\0\0\0", 4) + "scan.bin" + '\x88';

@@ -4,6 +4,7 @@
 #include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
+#include <mrpt/version.h>
 
 #include <cmath>
 
@@ -25,15 +26,28 @@ mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes) {
     return mrpt::serialization::archiveFrom(stream).ReadObject();
 }
 
+/// Bytes from the range image's dimensions to the end, as written by libs/maps of MRPT 2.5.8.
+static std::size_t sizeOfImages(const mrpt::obs::CObservationRotatingScan& scan) {
+    std::size_t size = 4 + 2 * scan.rangeImage.size() + 4 + scan.intensityImage.size() + 2;
+    for (const auto& [name, layer] : scan.rangeOtherLayers) {
+        size += 4 + name.size() + 2 * layer.size();
+    }
+    return size;
+}
+
+std::string olderBytesOf(const mrpt::obs::CObservationRotatingScan& scan) {
+    std::string bytes = bytesOf(scan);
+#if MRPT_VERSION >= 0x020900
+    bytes.erase(bytes.size() - 5, 4);                       // no points
+    bytes.erase(bytes.size() - 2 - sizeOfImages(scan), 1);  // stored inside the log
+#endif
+    return bytes;
+}
+
 std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
                          const std::vector<float>& points) {
-    std::string bytes = bytesOf(scan);
-    // Size from the range image's dimensions to the end, as written by libs/maps of MRPT 2.5.8.
-    std::size_t images = 4 + 2 * scan.rangeImage.size() + 4 + scan.intensityImage.size() + 2;
-    for (const auto& [name, layer] : scan.rangeOtherLayers) {
-        images += 4 + name.size() + 2 * layer.size();
-    }
-    bytes.insert(bytes.size() - 1 - images, 1, '\0');  // stored inside the log
+    std::string bytes = olderBytesOf(scan);
+    bytes.insert(bytes.size() - 1 - sizeOfImages(scan), 1, '\0');  // stored inside the log
     std::string more =
         points.empty() ? raw(std::uint32_t{0}) : raw(scan.columnCount) + raw(scan.rowCount);
     return bytes.insert(bytes.size() - 1, more + raw(points));

@@ -1,5 +1,7 @@
 #include "live/mavlink/Frame.h"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -25,18 +27,19 @@ std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes) 
     }
     // MAVLink 2 keeps at least one byte.
     while (payload_bytes > 1 && frame.payload[payload_bytes - 1] == 0) --payload_bytes;
-    std::vector<std::uint8_t> bytes{kStart,
-                                    static_cast<std::uint8_t>(payload_bytes),
-                                    0,
-                                    0,
-                                    frame.sequence,
-                                    frame.system,
-                                    frame.component,
-                                    static_cast<std::uint8_t>(frame.id),
-                                    static_cast<std::uint8_t>(frame.id >> 8),
-                                    static_cast<std::uint8_t>(frame.id >> 16)};
-    bytes.insert(bytes.end(), frame.payload.begin(),
-                 frame.payload.begin() + static_cast<std::ptrdiff_t>(payload_bytes));
+    const std::array<std::uint8_t, 10> header{kStart,
+                                              static_cast<std::uint8_t>(payload_bytes),
+                                              0,
+                                              0,
+                                              frame.sequence,
+                                              frame.system,
+                                              frame.component,
+                                              static_cast<std::uint8_t>(frame.id),
+                                              static_cast<std::uint8_t>(frame.id >> 8),
+                                              static_cast<std::uint8_t>(frame.id >> 16)};
+    std::vector<std::uint8_t> bytes(header.size() + payload_bytes);
+    std::copy_n(frame.payload.begin(), payload_bytes,
+                std::copy(header.begin(), header.end(), bytes.begin()));
     const std::uint16_t crc = checksum(&*extra, 1, checksum(&bytes[1], bytes.size() - 1));
     bytes.push_back(static_cast<std::uint8_t>(crc));
     bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
