@@ -4,7 +4,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hagen)
 
 # find_dependency() calls for users of Hagen, and pkg-config names. Libraries without a pkg-config
 # file have a linker flag; with "none", no pkg-config file can be written.
-set(find_Eigen3::Eigen "find_dependency(Eigen3 3.4 NO_MODULE)")
+set(find_Eigen3::Eigen "find_dependency(Eigen3 NO_MODULE)")
 set(find_hwy::hwy "find_dependency(hwy 1.0)")
 set(find_embree "find_dependency(embree ${embree_VERSION_MAJOR})")
 set(find_yaml-cpp "find_dependency(yaml-cpp)")

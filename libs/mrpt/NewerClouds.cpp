@@ -2,7 +2,6 @@
 #include <hagen/mrpt/NewerClouds.h>
 
 #include <mrpt/core/aligned_std_vector.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/aligned_serialization.h>
@@ -16,11 +15,9 @@
 #include "mrpt/ArchiveParts.h"
 
 namespace hagen::observations {
-#if MRPT_VERSION < 0x020f00
 namespace {
 
 using mrpt::maps::CPointsMap;
-using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
@@ -70,7 +67,11 @@ void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) 
     if (version != 0 && version != 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
     in >> options.minDistBetweenLaserPoints >> options.addToExistingPointsMap >>
         options.also_interpolate;
+#if MRPT_VERSION < 0x020f00
     if (version == 0) in >> options.disableDeletion;
+#else
+    if (version == 0) in.ReadAs<bool>();  // disableDeletion
+#endif
     in >> options.fuseWithExisting >> options.isPlanarMap >> options.horizontalTolerance >>
         options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
 }
@@ -95,17 +96,17 @@ class SimpleCloud : public CSimplePointsMap {
 constexpr const char* kGenericName = "mrpt::maps::CGenericPointsMap";
 const mrpt::rtti::TRuntimeClassId& genericClass();
 
-/// A CGenericPointsMap: coordinates, then named fields by type. By default it is written as
-/// CPointsMapXYZI, which older versions of MRPT read.
-class GenericCloud : public CPointsMapXYZI {
+/// A CGenericPointsMap: coordinates, then named fields by type. MRPT before 2.15 cannot read it, so
+/// that by default it is written as CPointsMapXYZI there.
+class GenericCloud : public IntensityCloud {
  public:
     std::vector<std::string> fields_not_kept;
     PointTable other_fields;
     bool has_intensity = false;
-    bool is_written_as_generic = false;
+    bool is_written_as_generic = MRPT_VERSION >= 0x020f00;
 
     const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
-        return is_written_as_generic ? &genericClass() : CPointsMapXYZI::GetRuntimeClass();
+        return is_written_as_generic ? &genericClass() : IntensityCloud::GetRuntimeClass();
     }
 
     /// Copies the colour of the first point to renderOptions, from which colour fields are written.
@@ -126,12 +127,12 @@ class GenericCloud : public CPointsMapXYZI {
     static constexpr std::size_t kMaxFields = 256;
 
     std::uint8_t serializeGetVersion() const override {
-        return is_written_as_generic ? kWrittenVersion : CPointsMapXYZI::serializeGetVersion();
+        return is_written_as_generic ? kWrittenVersion : IntensityCloud::serializeGetVersion();
     }
 
     void serializeTo(CArchive& out) const override {
         if (!is_written_as_generic) {
-            CPointsMapXYZI::serializeTo(out);
+            IntensityCloud::serializeTo(out);
             return;
         }
         out.WriteAs<std::uint32_t>(size());
@@ -252,7 +253,7 @@ const mrpt::rtti::TRuntimeClassId& genericClass() {
         [] {
             return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<GenericCloud>());
         },
-        [] { return CLASS_ID(CPointsMapXYZI); }};
+        [] { return CLASS_ID(IntensityCloud); }};
     return id;
 }
 
@@ -260,7 +261,7 @@ const mrpt::rtti::TRuntimeClassId& genericClass() {
 
 void registerNewerClouds() {
     registerAs<SimpleCloud, CSimplePointsMap>("mrpt::maps::CSimplePointsMap");
-    registerAs<GenericCloud, CPointsMapXYZI>(kGenericName);
+    registerAs<GenericCloud, IntensityCloud>(kGenericName);
 }
 
 std::vector<std::string> fieldsNotKept(const CPointsMap& cloud) {
@@ -313,15 +314,4 @@ void writeAsGeneric(CPointsMap& cloud) {
     }
 }
 
-#else
-
-void registerNewerClouds() {}
-std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap&) { return {}; }
-const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap&) { return nullptr; }
-mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable&) {
-    throw std::runtime_error("builds with MRPT 2.15 or newer cannot write clouds with all fields");
-}
-void writeAsGeneric(mrpt::maps::CPointsMap&) {}
-
-#endif
 }  // namespace hagen::observations

@@ -160,7 +160,7 @@ py::object groundOf(const Segmented& segmented) {
         for (int column = 0; column < 4; ++column)
             from_sensor.mutable_at(row, column) = ground.from_sensor.matrix()(row, column);
     }
-    return std::move(from_sensor);
+    return from_sensor;
 }
 
 evaluation::Scores evaluate(const py::object& labels, const py::object& truth,

@@ -23,7 +23,7 @@ TEST(Json, ReportsSyntaxErrorLocation) {
                 StartsWith("is not valid JSON: parse error at line 3, column 3: "));
     EXPECT_THAT(errorOf("{\"a\": 1}\n}"), HasSubstr("line 2, column 1"));
     EXPECT_THAT(errorOf("[1e999]"), HasSubstr("1e999"));
-    for (const std::string cut : {"{", "[1,", "{\"a\"", ""}) {
+    for (const std::string cut : {"{", "[1,", "{\"a\""}) {
         EXPECT_THAT(errorOf(cut), HasSubstr("unexpected end of input")) << cut;
     }
     EXPECT_LT(errorOf("[\"" + std::string(5000, 'x')).size(), 400u);

@@ -119,7 +119,7 @@ void streamDatagrams(std::string_view input) {
             bytes[at] = static_cast<char>(parts.number<std::uint8_t>());
         }
         const std::uint8_t cut = parts.number<std::uint8_t>();
-        if (cut > 250) bytes.resize(bytes.size() - std::min<std::size_t>(cut % 8, bytes.size()));
+        if (cut > 250) bytes.erase(bytes.size() - std::min<std::size_t>(cut % 8, bytes.size()));
         sensors::Datagram datagram;
         datagram.time_ns = static_cast<std::int64_t>(1e9 * now_s);
         datagram.bytes = reinterpret_cast<const std::uint8_t*>(bytes.data());

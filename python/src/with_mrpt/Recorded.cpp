@@ -21,7 +21,7 @@ py::object matrixOf(const mrpt::poses::CPose3D& pose) {
         for (int column = 0; column < 4; ++column)
             values.mutable_at(row, column) = matrix(row, column);
     }
-    return std::move(values);
+    return values;
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace hagen::observations {
 
 /// Lets older MRPTs read the CGenericPointsMap and CSimplePointsMap of MRPT 2.15 to 3 as
 /// CPointsMapXYZI and CSimplePointsMap, and writes them as such unless writeAsGeneric() is called.
-/// Does nothing with newer MRPTs. Call once, after registering MRPT's own classes
+/// Newer MRPTs write them as they are. Call once, after registering MRPT's own classes
 /// (registerMrptClasses()).
 void registerNewerClouds();
 
-/// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. These fields
-/// are lost when the cloud is written.
+/// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. Results in
+/// clouds of other classes do not contain them.
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap& cloud);
 /// Like fieldsNotKept(), as a table with one row per point of the cloud, without fields whose size
 /// differs. Null if the cloud was read as another class.
