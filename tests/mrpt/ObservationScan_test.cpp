@@ -191,7 +191,7 @@ TEST(ObservationScan, ConvertsChosenReturnsToClouds) {
         std::dynamic_pointer_cast<IntensityCloud>(cloudOf(scan, {0, 2}, CloudClass::WithIntensity));
     ASSERT_NE(full, nullptr);
     EXPECT_EQ(full->getPointsBufferRef_x(), (mrpt::aligned_std_vector<float>{1, 3}));
-    EXPECT_EQ(full->getPointIntensity(1), 0.75f);
+    EXPECT_EQ((*intensitiesOf(*full))[1], 0.75f);
     EXPECT_EQ(cloudOf(scan, CloudClass::Simple)->size(), 3u);
 }
 

@@ -168,7 +168,7 @@ TEST_F(ObservationSegmenterTest, KeepsIntensitiesOnRequest) {
     ASSERT_NE(roi, nullptr);
     ASSERT_GT(roi->size(), 0u);
     for (std::size_t i = 0; i < roi->size(); ++i) {
-        ASSERT_EQ(roi->getPointIntensity(i), out_.scan->intensity[out_.result->returns.roi[i]]);
+        ASSERT_EQ((*intensitiesOf(*roi))[i], out_.scan->intensity[out_.result->returns.roi[i]]);
     }
 }
 

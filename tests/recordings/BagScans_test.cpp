@@ -104,7 +104,7 @@ TEST_P(Fixture, ReadsEveryMessageType) {
     ASSERT_TRUE(livox);
     EXPECT_EQ(livox->sensor().name, "Mid-360");
     EXPECT_NEAR(livox->times_s()[19], 0.02f, 1e-6f);
-    EXPECT_FLOAT_EQ(livox->getPointIntensity(9), 10 / 255.0f);
+    EXPECT_FLOAT_EQ((*observations::intensitiesOf(*livox))[9], 10 / 255.0f);
     ASSERT_EQ(read.of("livox1").size(), 1u);
     expectPoints(read.of("livox1")[0]);
     ASSERT_EQ(read.of("velodyne_packets").size(), 1u);

@@ -19,7 +19,7 @@ struct OrganizedPoints {
 
 /// Lets older MRPTs read the CObservationRotatingScan of MRPT 2.9 to 3, whose layout differs under
 /// the same version 0. The position of the image size distinguishes the layouts; an image without
-/// pixels is read as the older layout. Scans are written in the older layout, without their points.
+/// pixels is read in the layout of the installed MRPT. Scans are written without their points.
 /// Call once, after registering MRPT's own classes (registerMrptClasses()).
 ///
 /// Reading throws std::runtime_error, naming the file, for a scan that is stored outside the log.
