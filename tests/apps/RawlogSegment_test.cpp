@@ -1,4 +1,5 @@
 // rawlog-segment on rawlogs and scan folders, run as a user would.
+#include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -303,7 +304,7 @@ TEST_F(RawlogSegment, ConvertsScanRange) {
     const auto roi =
         std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(rawlog.getAsObservation(2));
     EXPECT_EQ(roi->pointcloud->GetRuntimeClass()->className,
-              std::string("mrpt::maps::CPointsMapXYZI"));
+              std::string(CLASS_ID(observations::IntensityCloud)->className));
 }
 
 TEST_F(RawlogSegment, DrawsScanStages) {

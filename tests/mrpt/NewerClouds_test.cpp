@@ -20,7 +20,7 @@ namespace {
 using test::bytesOf;
 using test::raw;
 using testing::ElementsAre;
-using testing::IsEmpty;
+using testing::SizeIs;
 
 const auto read = test::objectOf;
 
@@ -104,12 +104,12 @@ TEST(NewerClouds, ConvertsGenericClouds) {
     EXPECT_EQ(cloud->likelihoodOptions.decimation, 10u);
 
     const std::string written = bytesOf(*cloud);
-    EXPECT_EQ(written.substr(1, 26), "mrpt::maps::CPointsMapXYZI");
     const auto again = std::dynamic_pointer_cast<IntensityCloud>(read(written));
     ASSERT_NE(again, nullptr);
     expectTwoPoints(*again);
     EXPECT_THAT(*intensitiesOf(*again), ElementsAre(0.25f, 0.75f));
-    EXPECT_THAT(fieldsNotKept(*again), IsEmpty());
+    const std::size_t fields_written = MRPT_VERSION < 0x020f00 ? 0 : 5;
+    EXPECT_THAT(fieldsNotKept(*again), SizeIs(fields_written));
 }
 
 TEST(NewerClouds, ReadsAllGenericVersions) {
@@ -167,9 +167,11 @@ TEST(NewerClouds, WritesTablesAsVersion3) {
     const auto cloud = genericCloudOf(tableOfAllTypes());
     cloud->insertionOptions.horizontalTolerance = 0.001f;
     const std::string two = raw(std::uint32_t{2}), three = raw(std::uint32_t{3});
-    std::string older_options = options();  // with `disableDeletion`
-    older_options[0] = 0;
-    older_options.insert(7, 1, '\1');
+    std::string written_options = options();
+#if MRPT_VERSION < 0x020f00  // with `disableDeletion`
+    written_options[0] = 0;
+    written_options.insert(7, 1, '\1');
+#endif
     EXPECT_EQ(bytesOf(*cloud),
               objectOf(kGeneric, 3,
                        coordinates() + two + field<float>("intensity", {0.25f, 0.75f}) +
@@ -178,7 +180,7 @@ TEST(NewerClouds, WritesTablesAsVersion3) {
                            field<std::uint16_t>("ring", {7, 8}) + three +
                            field<std::uint8_t>("color_r", {51, 0}) +
                            field<std::uint8_t>("color_g", {102, 0}) +
-                           field<std::uint8_t>("color_b", {255, 0}) + older_options));
+                           field<std::uint8_t>("color_b", {255, 0}) + written_options));
     EXPECT_NEAR(cloud->renderOptions.color.R, 0.2f, 1e-6);
     EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
     EXPECT_NEAR(cloud->renderOptions.color.B, 1.0f, 1e-6);
@@ -192,7 +194,7 @@ TEST(NewerClouds, RoundTripsGenericClouds) {
     EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
     EXPECT_THAT(fieldsNotKept(*cloud),
                 ElementsAre("t", "gps_time", "range", "ring", "color_r", "color_g", "color_b"));
-    EXPECT_EQ(bytesOf(*cloud).substr(1, 26), "mrpt::maps::CPointsMapXYZI");
+    EXPECT_EQ(bytesOf(*cloud) == bytes, MRPT_VERSION >= 0x020f00);
     writeAsGeneric(*cloud);
     EXPECT_EQ(bytesOf(*cloud), bytes);
 }
@@ -240,7 +242,7 @@ TEST(NewerClouds, ScalesIntensitiesOfAnyType) {
     EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
 }
 
-/// A simple cloud in the formats of the installed MRPT and of MRPT 2.15.3 or newer.
+/// A simple cloud as written by the installed MRPT, and with the options before or since 2.15.3.
 std::pair<std::string, std::string> simpleClouds() {
     PortableCloud cloud;
     test::Random random(3);
@@ -250,22 +252,19 @@ std::pair<std::string, std::string> simpleClouds() {
     cloud.insertionOptions.isPlanarMap = true;
     cloud.renderOptions.point_size = 3;
     const std::string bytes = bytesOf(cloud);
-    const std::string options =
-        raw(std::int8_t{0}) + raw(0.02f) + std::string("\x01\0\x01\0\x01", 5);
-    const std::size_t at = bytes.find(options);
-    EXPECT_NE(at, std::string::npos);
-    std::string newer = bytes;
-    newer.replace(at, options.size(),
-                  raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\x01", 4));
-    return {bytes, newer};
+    std::string written = raw(std::int8_t{0}) + raw(0.02f) + std::string("\x01\0\x01\0\x01", 5);
+    std::string other = raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\x01", 4);
+    if (bytes.find(written) == std::string::npos) std::swap(written, other);
+    std::string with_other = bytes;
+    return {bytes, with_other.replace(bytes.find(written), written.size(), other)};
 }
 
-TEST(NewerClouds, ReadsNewerSimpleClouds) {
-    const auto [older, newer] = simpleClouds();
-    for (const std::string& bytes : {older, newer}) {
+TEST(NewerClouds, ReadsOtherSimpleClouds) {
+    const auto [written, other] = simpleClouds();
+    for (const std::string& bytes : {written, other}) {
         const auto object = read(bytes);
         ASSERT_TRUE(std::dynamic_pointer_cast<PortableCloud>(object));
-        EXPECT_EQ(bytesOf(*object), older);
+        EXPECT_EQ(bytesOf(*object), written);
     }
 }
 

@@ -1,6 +1,6 @@
 #include "recordings/ScanObject.h"
 #include <gtest/gtest.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
+#include <hagen/mrpt/MrptCompat.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@ using observations::CloudClass;
 
 CObservationPointCloud::Ptr cloudOf(std::size_t points) {
     auto cloud = CObservationPointCloud::Create();
-    auto with_intensity = mrpt::maps::CPointsMapXYZI::Create();
+    auto with_intensity = std::make_shared<observations::IntensityCloud>();
     with_intensity->setSize(points);
     for (std::size_t i = 0; i < points; ++i) {
         const auto x_m = static_cast<float>(i);

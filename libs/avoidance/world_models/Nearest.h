@@ -18,6 +18,7 @@ using PointTree =
 class Nearest {
  public:
     using DistanceType = float;
+    using IndexType = std::uint32_t;
     explicit Nearest(float limit_m) : min_m2_(limit_m * limit_m) {}
 
     /// Restricts the next tree to its first `points` points (at least 1) without hidden points
@@ -49,6 +50,7 @@ class Nearest {
 class AnyWithin {
  public:
     using DistanceType = float;
+    using IndexType = std::uint32_t;
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
     AnyWithin(float radius_m, std::size_t points, std::uint32_t but = kNone)
