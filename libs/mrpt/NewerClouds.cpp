@@ -1,6 +1,5 @@
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/NewerClouds.h>
-
 #include <mrpt/core/aligned_std_vector.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>

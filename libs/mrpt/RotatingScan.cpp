@@ -63,9 +63,8 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     in >> minRange >> maxRange >> sensorPose >> originalReceivedTimestamp >>
         has_satellite_timestamp;
 
-    // In the older layout, columns and rows follow. In the newer layout, the storage type follows,
-    // which is 0 (in the log), then columns and rows; or 1 or 2 (in a file), then the file name
-    // length.
+    // In the older layout, columns and rows follow. In the newer layout, the storage type follows:
+    // 0 (in the log), then columns and rows; 1 or 2 (in a file), then the file name length.
     std::array<std::uint8_t, 4> next{};
     in.ReadBuffer(next.data(), next.size());
     const std::uint16_t older_columns = number(next[0], next[1]);

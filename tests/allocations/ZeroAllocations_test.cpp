@@ -120,11 +120,12 @@ INSTANTIATE_TEST_SUITE_P(Sensors, ZeroAllocations, testing::Values("VLP-16", "HD
 TEST(AllocationCounter, SeesNewAndEigen) {
     if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const std::size_t before = allocations();
-    const auto number = std::make_unique<int>(1);
+    void* const block = ::operator new(8);  // compilers may leave out a new expression
     EXPECT_EQ(allocations() - before, 1u);
+    ::operator delete(block);
     const Eigen::ArrayXXf numbers = Eigen::ArrayXXf::Zero(8, 8);
     EXPECT_EQ(allocations() - before, 2u);
-    EXPECT_EQ(numbers(3, 3) + static_cast<float>(*number), 1);
+    EXPECT_EQ(numbers(3, 3), 0);
 }
 
 }  // namespace

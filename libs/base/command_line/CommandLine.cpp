@@ -29,6 +29,7 @@ constexpr const char* kNotEmpty = "not empty";
 /// Wraps a line of --help. Continuation lines are aligned with the descriptions.
 std::string wrapped(std::string line) {
     std::string lines;
+    line.erase(line.find_last_not_of(' ') + 1);
     while (line.size() > kHelpWidth) {
         const std::size_t end = line.rfind(' ', kHelpWidth);
         const bool has_word = line.find_first_not_of(' ') < end && end != std::string::npos;
@@ -65,6 +66,11 @@ class HelpText : public CLI::Formatter {
         const std::string& standard = option->get_default_str();
         return option->get_description() + (option->get_required() ? " (required)" : "") +
                (standard.empty() ? "" : " (default: " + standard + ")");
+    }
+    /// With "Usage: ", which CLI11 2.6 omits.
+    std::string make_usage(const CLI::App* app, std::string name) const override {
+        const std::string usage = CLI::Formatter::make_usage(app, std::move(name));
+        return usage[0] == 'U' ? usage : "Usage: " + usage.substr(1);
     }
     std::string make_help(const CLI::App* app, std::string name,
                           CLI::AppFormatMode mode) const override {
