@@ -66,8 +66,8 @@ void declare(Program& app, Flags& flags) {
         .showDefault()
         .valueName("X")
         .group("Input");
-    app.option("--model", flags.live.model, "sensor model")
-        .valueName(sensors::driverModels("|"))
+    app.option("--model", flags.live.model, "sensor model: " + sensors::driverModels())
+        .valueName("NAME")
         .group("Input");
     app.option("--calibration", flags.live.calibration,
                "HDL-64E calibration file (Velodyne's db.xml)")
