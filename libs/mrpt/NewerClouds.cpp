@@ -104,8 +104,9 @@ class GenericCloud : public IntensityCloud {
     bool has_intensity = false;
     bool is_written_as_generic = MRPT_VERSION >= 0x020f00;
 
+    mrpt::rtti::CObject* clone() const override { return new GenericCloud(*this); }
     const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
-        return is_written_as_generic ? &genericClass() : IntensityCloud::GetRuntimeClass();
+        return writesFields() ? &genericClass() : IntensityCloud::GetRuntimeClass();
     }
 
     /// Copies the colour of the first point to renderOptions, from which colour fields are written.
@@ -125,12 +126,15 @@ class GenericCloud : public IntensityCloud {
     static constexpr std::uint8_t kWrittenVersion = 3;
     static constexpr std::size_t kMaxFields = 256;
 
+    /// Not if the number of points has changed since the fields were set.
+    bool writesFields() const { return is_written_as_generic && other_fields.points == size(); }
+
     std::uint8_t serializeGetVersion() const override {
-        return is_written_as_generic ? kWrittenVersion : IntensityCloud::serializeGetVersion();
+        return writesFields() ? kWrittenVersion : IntensityCloud::serializeGetVersion();
     }
 
     void serializeTo(CArchive& out) const override {
-        if (!is_written_as_generic) {
+        if (!writesFields()) {
             IntensityCloud::serializeTo(out);
             return;
         }
@@ -168,7 +172,8 @@ class GenericCloud : public IntensityCloud {
     /// Writes all fields of one type. Fields with several numbers per point become several fields.
     template <class Number>
     void writeFields(CArchive& out) const {
-        const bool with_intensity = std::is_same_v<Number, float> && has_intensity;
+        const auto* const intensities = intensitiesOf(*this);
+        const bool with_intensity = std::is_same_v<Number, float> && has_intensity && intensities;
         std::uint32_t count = with_intensity ? 1 : 0;
         for (const PointField& field : other_fields.fields) {
             if (writtenType(field.type) == typeOf<Number>())
@@ -176,7 +181,6 @@ class GenericCloud : public IntensityCloud {
         }
         out << count;
         if (with_intensity) {
-            const auto* const intensities = intensitiesOf(*this);
             writeField<Number>("intensity", {intensities->begin(), intensities->end()}, out);
         }
         for (const PointField& field : other_fields.fields) {
@@ -259,7 +263,9 @@ const mrpt::rtti::TRuntimeClassId& genericClass() {
 }  // namespace
 
 void registerNewerClouds() {
+#if MRPT_VERSION < 0x020f00
     registerAs<SimpleCloud, CSimplePointsMap>("mrpt::maps::CSimplePointsMap");
+#endif
     registerAs<GenericCloud, IntensityCloud>(kGenericName);
 }
 

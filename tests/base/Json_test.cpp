@@ -26,6 +26,7 @@ TEST(Json, ReportsSyntaxErrorLocation) {
     for (const std::string cut : {"{", "[1,", "{\"a\""}) {
         EXPECT_THAT(errorOf(cut), HasSubstr("unexpected end of input")) << cut;
     }
+    EXPECT_NE(errorOf(""), "");
     EXPECT_LT(errorOf("[\"" + std::string(5000, 'x')).size(), 400u);
 }
 

@@ -32,8 +32,10 @@ void readCampaign(std::string_view input) {
 Seeds campaignFiles() {
     avoidance::Run run{};
     run.scenario = "forest-0.10";
+    run.seed = 7;
     run.oracle_path_m = 40.5;
     run.settings_hash = "0123456789abcdef";
+    run.version = "1.0";
     avoidance::LatencyProfile profile = avoidance::standardLatencyProfile();
     for (auto& [stage, quantiles] : profile.quantiles_ms) quantiles.resize(3);
     return {avoidance::textOf(profile),

@@ -53,7 +53,7 @@ get_filename_component(pc ${pc} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${pc})
 execute_process(COMMAND pkg-config --cflags --libs hagen-filter OUTPUT_VARIABLE flags
                 OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-if(flags MATCHES "-lmrpt")
+if(flags MATCHES "(-l|/lib)mrpt")
   message(FATAL_ERROR "hagen-filter.pc: ${flags}")
 endif()
 separate_arguments(flags UNIX_COMMAND "${flags}")

@@ -104,6 +104,8 @@ TEST(NewerClouds, ConvertsGenericClouds) {
     EXPECT_EQ(cloud->likelihoodOptions.decimation, 10u);
 
     const std::string written = bytesOf(*cloud);
+    const std::string name = CLASS_ID(IntensityCloud)->className;
+    EXPECT_EQ(written.substr(1, name.size()), name);
     const auto again = std::dynamic_pointer_cast<IntensityCloud>(read(written));
     ASSERT_NE(again, nullptr);
     expectTwoPoints(*again);

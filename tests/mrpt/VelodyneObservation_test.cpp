@@ -9,6 +9,7 @@
 
 #include "support/Captures.h"
 #include "support/InstructionSets.h"
+#include "support/LaserRows.h"
 #include "support/Program.h"
 #include "support/Random.h"
 #include "support/SimpleFirings.h"
@@ -101,7 +102,7 @@ Firings randomFirings(unsigned seed, const sensors::VelodyneModel& model, int co
 }
 
 void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, const Scan& scan) {
-    const auto rows = sensors::rowsOfLasers(sensors::defaultCalibration(model));
+    const auto rows = test::rowsOfLasers(sensors::defaultCalibration(model));
     std::size_t i = 0;
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
         for (int laser = 0; laser < model.lasers; ++laser) {

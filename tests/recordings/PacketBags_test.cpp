@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "support/LaserRows.h"
 #include "support/Program.h"
 #include "support/ReadBag.h"
 
@@ -122,7 +123,7 @@ TEST_P(PacketBags, MatchOtherDriver) {
     }
     std::vector<int> laser_of(beams.size());
     if (is_vls) {
-        const auto rows = sensors::rowsOfLasers(defaultCalibration(sensors::velodyneModel(model)));
+        const auto rows = test::rowsOfLasers(defaultCalibration(sensors::velodyneModel(model)));
         for (int laser = 0; laser < 128; ++laser) laser_of[rows[laser]] = laser;
     }
     std::size_t unmatched = 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "support/LaserRows.h"
+
 namespace hagen::sensors {
 namespace {
 
@@ -20,7 +22,7 @@ TEST(VelodyneModel, DefaultBeamsMatchDataSheets) {
 }
 
 TEST(VelodyneModel, RowsFollowElevation) {
-    const auto rows = rowsOfLasers(defaultCalibration(velodyneModel("VLP-16")));
+    const auto rows = test::rowsOfLasers(defaultCalibration(velodyneModel("VLP-16")));
     // The VLP-16 fires in the order -15, 1, -13, 3, ... degrees.
     EXPECT_EQ(rows,
               (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "support/CaptureWriter.h"
+#include "support/LaserRows.h"
 
 namespace hagen::test {
 
@@ -22,8 +23,7 @@ observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneMo
                              const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
                              double range_limit_m) {
     const SensorModel sensor = sensorModel(model.name);
-    const std::vector<std::uint8_t> rows =
-        sensors::rowsOfLasers(sensors::defaultCalibration(model));
+    const std::vector<std::uint8_t> rows = rowsOfLasers(sensors::defaultCalibration(model));
     observations::Firings firings;
     firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 Hz
     const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));

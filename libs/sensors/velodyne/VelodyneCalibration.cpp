@@ -112,14 +112,6 @@ std::uint8_t rowOfLaser(const VelodyneCalibration& calibration, std::size_t lase
     return static_cast<std::uint8_t>(lower);
 }
 
-std::vector<std::uint8_t> rowsOfLasers(const VelodyneCalibration& calibration) {
-    std::vector<std::uint8_t> rows(calibration.lasers.size());
-    for (std::size_t laser = 0; laser < rows.size(); ++laser) {
-        rows[laser] = rowOfLaser(calibration, laser);
-    }
-    return rows;
-}
-
 void beamsOf(const VelodyneCalibration& calibration, std::vector<float>& elevations_rad) {
     elevations_rad.resize(calibration.lasers.size());
     for (std::size_t laser = 0; laser < elevations_rad.size(); ++laser) {

@@ -47,6 +47,7 @@ class IntensityCloud : public mrpt::maps::CGenericPointsMap {
  public:
     IntensityCloud() { registerField_float("intensity"); }
     void setPointIntensity(std::size_t i, float intensity) {
+        if (!hasPointField("intensity")) registerField_float("intensity");
         setPointField_float(i, "intensity", intensity);
     }
 };

@@ -10,8 +10,8 @@ namespace hagen::observations {
 
 /// Lets older MRPTs read the CGenericPointsMap and CSimplePointsMap of MRPT 2.15 to 3 as
 /// CPointsMapXYZI and CSimplePointsMap, and writes them as such unless writeAsGeneric() is called.
-/// Newer MRPTs write them as they are. Call once, after registering MRPT's own classes
-/// (registerMrptClasses()).
+/// With newer MRPTs, clouds read as CGenericPointsMap are written as such, with the types of
+/// genericCloudOf(). Call once, after registering MRPT's own classes (registerMrptClasses()).
 void registerNewerClouds();
 
 /// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. Results in

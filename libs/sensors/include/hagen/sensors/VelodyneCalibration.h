@@ -35,9 +35,8 @@ VelodyneLaser laserAt(double elevation_deg);
 /// every HDL-64E has its own.
 const VelodyneCalibration& defaultCalibration(const VelodyneModel& model);
 
-/// Returns the image row of one or all lasers (row 0: lowest beam), from their elevations.
+/// Returns the image row of a laser (row 0: lowest beam), from the elevations of all.
 std::uint8_t rowOfLaser(const VelodyneCalibration& calibration, std::size_t laser);
-std::vector<std::uint8_t> rowsOfLasers(const VelodyneCalibration& calibration);
 
 /// Returns the elevations of the calibration's beams, lowest first.
 void beamsOf(const VelodyneCalibration& calibration, std::vector<float>& elevations_rad);
