@@ -71,7 +71,7 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     const std::uint16_t older_rows = number(next[2], next[3]);
     const bool has_no_pixels = older_columns == 0 && older_rows == 0;
     const bool is_older =
-        has_no_pixels ? MRPT_VERSION < 0x020900
+        has_no_pixels ? MRPT_VERSION < 0x020b04
                       : (older_columns == columnCount && older_rows == rowCount) || next[0] > 2;
     if (is_older) {
         readMatrix(in, older_rows, older_columns, rangeImage);

@@ -37,7 +37,7 @@ static std::size_t sizeOfImages(const mrpt::obs::CObservationRotatingScan& scan)
 
 std::string olderBytesOf(const mrpt::obs::CObservationRotatingScan& scan) {
     std::string bytes = bytesOf(scan);
-#if MRPT_VERSION >= 0x020900
+#if MRPT_VERSION >= 0x020b04
     bytes.erase(bytes.size() - 5, 4);                       // no points
     bytes.erase(bytes.size() - 2 - sizeOfImages(scan), 1);  // stored inside the log
 #endif

@@ -26,8 +26,8 @@ RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets
 std::string bytesOf(const mrpt::serialization::CSerializable& object);
 mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes);
 
-/// The bytes of a scan in the layout of MRPT up to 2.8, and of MRPT 2.9 to 3, in which points are
-/// rows * columns * (x, y, z), row by row.
+/// The bytes of a scan in the layout before MRPT 2.11.4, and in the layout since, in which points
+/// are rows * columns * (x, y, z), row by row.
 std::string olderBytesOf(const mrpt::obs::CObservationRotatingScan& scan);
 std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
                          const std::vector<float>& points = {});

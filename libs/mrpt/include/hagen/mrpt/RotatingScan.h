@@ -17,7 +17,7 @@ struct OrganizedPoints {
     std::vector<float> x_m, y_m, z_m;  ///< in the sensor's frame; all 0 or not finite if missing
 };
 
-/// Lets older MRPTs read the CObservationRotatingScan of MRPT 2.9 to 3, whose layout differs under
+/// Lets older MRPTs read the CObservationRotatingScan of MRPT 2.11.4 to 3. The layout differs under
 /// the same version 0. The position of the image size distinguishes the layouts; an image without
 /// pixels is read in the layout of the installed MRPT. Scans are written without their points.
 /// Call once, after registering MRPT's own classes (registerMrptClasses()).
