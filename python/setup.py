@@ -22,9 +22,6 @@ class CMakeBuild(build_ext):
                      ["--build", build, "--target", "_hagen"],
                      ["--install", build, "--prefix", pathlib.Path(self.build_lib).resolve(), "--strip"]):
             subprocess.run(["cmake", *map(str, step)], check=True)
-        for link in pathlib.Path(self.build_lib, "hagen").glob("*.so.*"):
-            if link.is_symlink():  # wheels have no links
-                link.resolve().replace(link)
 
 
 setup(

@@ -347,12 +347,7 @@ int run(const Program& program, Flags& flags) {
         listener.remark = [&](const std::string& remark) {  // may run on the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        std::string failure, left;  // `left` lists outputs of earlier runs
-        try {
-            left = base::leftBehind(
-                {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});
-        } catch (const std::filesystem::filesystem_error&) {  // reported when the file is opened
-        }
+        std::string failure;
         int failed = kFailed;
         try {
             link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
@@ -382,7 +377,6 @@ int run(const Program& program, Flags& flags) {
             printer.print(line.instead(), "");
             failure = Program::messageOf(e);
         }
-        if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {
             // The terminal is blocked, so exit() would hang flushing stdout. All files are

@@ -92,7 +92,6 @@ int run(const Flags& flags, bool has_output) {
         });
     }
     if (!outputs.failures().empty()) throw std::runtime_error(outputs.failures());
-    tellLeftBehind({flags.file, flags.memory});
     return 0;
 }
 

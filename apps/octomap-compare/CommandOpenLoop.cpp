@@ -95,7 +95,6 @@ int run(Flags flags) {
         const avoidance::OpenLoopResult result = avoidance::runOpenLoop(open_loop, listener);
         show(result);  // shown first, because writing files may fail
         files.commit(open_loop, result);
-        tellLeftBehind(files.paths());
         return 0;
     } catch (const avoidance::OpenLoopEnded& ended) {
         show(ended.result);

@@ -57,7 +57,6 @@ int run(const Flags& flags) {
     std::cout << avoidance::choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n";
-    tellLeftBehind({page.path()});
     if (recording.is_same) return 0;
     std::cerr << "octomap-compare: the result differs from the table (program version "
               << HAGEN_VERSION << ", table version " << wanted.version << ")\n";

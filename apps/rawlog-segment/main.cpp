@@ -293,7 +293,6 @@ void learn(const Flags& flags) {
     };
     const convert::AirframeReport report = convert::learnAirframe(learning, listener);
     if (!flags.is_quiet) printAirframe(learning, report);
-    if (!flags.is_quiet) tellLeftBehind({learning.file, report.picture});
 }
 
 void capture(const Flags& flags) {
@@ -304,7 +303,6 @@ void capture(const Flags& flags) {
         convert::capturePackets(conversion.input, options, flags.capture, conversion.overwrite);
     if (flags.is_quiet) return;
     std::cout << flags.capture.string() << ": " << counted(packets, "packet") << "\n";
-    tellLeftBehind({flags.capture});
 }
 
 int run(const Program& program, Flags& flags) {

@@ -126,7 +126,6 @@ int run(const convert::SimulatedLog& log, bool is_quiet) {
     };
     const convert::SimulationReport report = convert::simulateLog(log, keep_going);
     if (!is_quiet) printSummary(log, report);
-    if (!is_quiet) tellLeftBehind({log.rawlog, log.folder, log.poses, log.capture});
     return kDone;
 }
 

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -79,8 +78,6 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
     }
 }
 
-constexpr const char* kTemporaryMark = ".tmp-";
-
 /// A hidden name beside `path` with the process ID and 64 random bits. In a folder that others may
 /// write to, an attacker could place a link at a predictable name.
 fs::path secretName(const fs::path& path, const std::string& mark) {
@@ -102,15 +99,6 @@ void flushToDisk(const fs::path& path, const fs::path& named) {
     if (error != 0 && error != EINVAL) throwWriteError(named, error);
 }
 
-/// True for a temporary file of a process that has ended.
-bool isLeftBehind(const fs::path& file, const std::string& output) {
-    const std::string name = file.filename().string(), start = output + kTemporaryMark;
-    if (name.rfind(start, 0) != 0) return false;
-    const int number = std::atoi(name.c_str() + start.size());
-    // Runs in containers may all have the same process ID.
-    return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
-}
-
 }  // namespace
 
 OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
@@ -127,7 +115,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     }
     fs::create_directories(folder, error);
     if (error) failAt(folder, "cannot be created: " + error.message());
-    temporary_ = secretName(path_, kTemporaryMark);
+    temporary_ = secretName(path_, ".tmp-");
 }
 
 OutputPath::~OutputPath() {
@@ -236,24 +224,10 @@ std::vector<fs::path> partialOutputs(const fs::path& output) {
     std::error_code unreadable;
     for (const fs::path& entry : entriesOf(parentOf(path), unreadable)) {
         const std::string name = entry.filename().string();
-        const bool is_partial =
-            name.rfind(stem + ".partial", 0) == 0 && (is_folder || entry.extension() == extension);
-        if (is_partial || isLeftBehind(entry, path.filename().string())) {
-            found.push_back(path.parent_path() / name);
-        }
+        if (name.rfind(stem + ".partial", 0) != 0) continue;
+        if (is_folder || entry.extension() == extension) found.push_back(path.parent_path() / name);
     }
     return found;
-}
-
-std::string leftBehind(const std::vector<fs::path>& outputs) {
-    std::string names;
-    for (const fs::path& output : outputs) {
-        for (const fs::path& left : partialOutputs(output)) {
-            names += (names.empty() ? "" : ", ") + left.string();
-        }
-    }
-    if (names.empty()) return "";
-    return "earlier runs left " + names + "; delete what you do not need";
 }
 
 void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,

@@ -342,9 +342,6 @@ class Converter {
         remarkOnLabels();
         remarkOnRecording();
         outputs_.commit(report_);
-        // Partial outputs of earlier runs have other names and are not replaced.
-        const std::string left = base::leftBehind(outputsOf(conversion_));
-        if (!left.empty()) listener_.remark("the outputs", left);
         return std::move(report_);
     }
 

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace hagen::convert {
 namespace {
@@ -30,17 +31,17 @@ struct Unlabelled {
 };
 
 /// Fields that a scan does not contain: those of a rawlog of MRPT 3, and the tags of a Livox.
-const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
+std::optional<PointTable> otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
     const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud);
-    return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
+    return located != nullptr ? located->otherFields() : observations::otherFieldsOf(cloud);
 }
 
 /// Combines the fields of a scan, including times, with the observation's other fields.
 PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& observation) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
-    const PointTable* const others =
-        cloud != nullptr && cloud->pointcloud ? otherFieldsOf(*cloud->pointcloud) : nullptr;
-    if (others == nullptr || others->points != scan.size()) return observations::tableOf(scan);
+    const std::optional<PointTable> others =
+        cloud != nullptr && cloud->pointcloud ? otherFieldsOf(*cloud->pointcloud) : std::nullopt;
+    if (!others || others->points != scan.size()) return observations::tableOf(scan);
     const bool has_times = timeFieldOf(*others) != nullptr;
     PointTable table = has_times ? observations::untimedTableOf(scan) : observations::tableOf(scan);
     for (const observations::PointField& field : others->fields) {
@@ -107,12 +108,6 @@ LabelledTable labelled(const observations::ObservationSegmenter::Output& segment
     return labelled;
 }
 
-void rename(const std::string& from, const std::string& to, PointTable& table) {
-    for (observations::PointField& field : table.fields) {
-        if (field.name == from) field.name = to;
-    }
-}
-
 /// A cloud of these points, all in the same colour.
 mrpt::maps::CPointsMap::Ptr coloredCloudOf(const PointTable& table,
                                            const std::vector<std::uint32_t>& points,
@@ -149,7 +144,9 @@ void useCloudsWithFields(const mrpt::obs::CObservation& observation,
                 points.table);
     if (observations::tableCloudOf(observation) == nullptr &&
         findField(points.table, {"t"}) == nullptr) {
-        rename("time", "t", points.table);
+        for (auto& field : points.table.fields) {
+            if (field.name == "time") field.name = "t";
+        }
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
     // CGenericPointsMap does not support uint32.

@@ -44,16 +44,22 @@ class SilentErrorStream {
     std::streambuf* before_;
 };
 
-/// Registers a class under another class's name.
+/// The description of a class for MRPT, under the same name in all calls.
 template <class Derived, class Base>
-void registerAs(const char* name) {
+const mrpt::rtti::TRuntimeClassId& classAs(const char* name) {
     static const mrpt::rtti::TRuntimeClassId id{
         name,
         [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Derived>()); },
         [] { return CLASS_ID(Base); }};
+    return id;
+}
+
+/// Registers a class under another class's name.
+template <class Derived, class Base>
+void registerAs(const char* name) {
     // MRPT prints a warning to standard error if the name is taken.
     const SilentErrorStream silence;
-    mrpt::rtti::registerClassCustomName(name, &id);
+    mrpt::rtti::registerClassCustomName(name, &classAs<Derived, Base>(name));
 }
 
 }  // namespace hagen::observations

@@ -7,7 +7,7 @@
 #include <mrpt/serialization/stl_serialization.h>
 #include <mrpt/version.h>
 
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
@@ -39,6 +39,13 @@ constexpr NumberType typeOf() {
     if (std::is_same_v<Number, double>) return NumberType::Float64;
     if (std::is_same_v<Number, std::uint16_t>) return NumberType::UInt16;
     return std::is_same_v<Number, std::uint8_t> ? NumberType::UInt8 : NumberType::UInt32;
+}
+
+/// The type in which numbers are written: float64 for types that the class does not support.
+NumberType writtenType(NumberType type) {
+    const bool is_kept =
+        type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
+    return is_kept ? type : NumberType::Float64;
 }
 
 /// The coordinates of a cloud, read after the point count.
@@ -93,41 +100,87 @@ class SimpleCloud : public CSimplePointsMap {
 };
 
 constexpr const char* kGenericName = "mrpt::maps::CGenericPointsMap";
-const mrpt::rtti::TRuntimeClassId& genericClass();
+constexpr const char* kIntensity = "intensity";
 
-/// A CGenericPointsMap: coordinates, then named fields by type. MRPT before 2.15 cannot read it, so
-/// that by default it is written as CPointsMapXYZI there.
-class GenericCloud : public IntensityCloud {
- public:
-    std::vector<std::string> fields_not_kept;
-    PointTable other_fields;
-    bool has_intensity = false;
-    bool is_written_as_generic = MRPT_VERSION >= 0x020f00;
+/// The content of a CGenericPointsMap: coordinates, then named fields by type.
+struct GenericContent {
+    Coordinates coordinates;
+    PointTable fields;  ///< intensities are float
+    std::vector<std::string> fields_refused;
 
-    mrpt::rtti::CObject* clone() const override { return new GenericCloud(*this); }
-    const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
-        return writesFields() ? &genericClass() : IntensityCloud::GetRuntimeClass();
-    }
-
-    /// Copies the colour of the first point to renderOptions, from which colour fields are written.
-    void takeColor() {
-        std::array<float, 3> color{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const PointField* const field = findField(other_fields, {kColorFields[i]});
-            if (field == nullptr) return;
-            if (!empty()) color[i] = static_cast<float>(columnOf(other_fields, *field)[0]) / 255.0f;
-        }
-        if (!empty()) renderOptions.color = {color[0], color[1], color[2]};
+    GenericContent(CArchive& in, std::uint8_t version) : coordinates(in) {
+        fields.points = coordinates.x_m.size();
+        readFields<float>(in, version);
+        if (version >= 1) readFields<double>(in, version);
+        readFields<std::uint16_t>(in, version);
+        if (version >= 2) readFields<std::uint8_t>(in, version);
+        if (version >= 4) readFields<std::uint32_t>(in, version);
     }
 
  private:
-    static constexpr std::uint8_t kNewestVersion = 4;
-    /// The first version with colour fields.
-    static constexpr std::uint8_t kWrittenVersion = 3;
     static constexpr std::size_t kMaxFields = 256;
 
+    /// Keeps a field, or returns why it cannot be kept.
+    std::string keep(const std::string& name, NumberType type, const std::vector<double>& values) {
+        if (name.empty()) return "no name";
+        if (findExactly(fields, name) != nullptr) return "duplicate name";
+        if (values.size() != fields.points) {
+            return "expected one value per point (" + std::to_string(fields.points) + "), found " +
+                   std::to_string(values.size());
+        }
+        addColumn(name, name == kIntensity ? NumberType::Float32 : type, values, fields);
+        return "";
+    }
+
+    template <class Number>
+    void readFields(CArchive& in, std::uint8_t version) {
+        for (auto count = in.ReadAs<std::uint32_t>(); count > 0; --count) {
+            const std::string name = readText(in);
+            mrpt::aligned_std_vector<Number> values;
+            if (version >= 3 || std::is_same_v<Number, float>) {
+                readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+            } else {
+                readVector(in, values);
+            }
+            if (fields.fields.size() + fields_refused.size() >= kMaxFields) {
+                throw std::runtime_error("a cloud has too many fields");
+            }
+            const std::string why = keep(name, typeOf<Number>(), {values.begin(), values.end()});
+            if (!why.empty()) fields_refused.push_back(name + " (not kept: " + why + ")");
+        }
+    }
+};
+
+#if MRPT_VERSION < 0x020f00
+/// A CGenericPointsMap, which this MRPT cannot read. By default it is written as CPointsMapXYZI.
+class GenericCloud : public IntensityCloud {
+ public:
+    std::vector<std::string> fields_refused;
+    PointTable fields;
+    bool is_written_as_generic = false;
+
+    mrpt::rtti::CObject* clone() const override { return new GenericCloud(*this); }
+    const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
+        return writesFields() ? &classAs<GenericCloud, CPointsMap>(kGenericName)
+                              : IntensityCloud::GetRuntimeClass();
+    }
+
+    void setFields(const PointTable& table) {
+        fields = table;
+        const PointField* const field = findExactly(fields, kIntensity);
+        if (field == nullptr) return;
+        const std::vector<double> intensities = columnOf(fields, *field);
+        for (std::size_t i = 0; i < size(); ++i) {
+            setPointIntensity(i, static_cast<float>(intensities[i]));
+        }
+    }
+
+ private:
+    /// The first version with colour fields.
+    static constexpr std::uint8_t kWrittenVersion = 3;
+
     /// Not if the number of points has changed since the fields were set.
-    bool writesFields() const { return is_written_as_generic && other_fields.points == size(); }
+    bool writesFields() const { return is_written_as_generic && fields.points == size(); }
 
     std::uint8_t serializeGetVersion() const override {
         return writesFields() ? kWrittenVersion : IntensityCloud::serializeGetVersion();
@@ -151,113 +204,75 @@ class GenericCloud : public IntensityCloud {
         likelihoodOptions.writeToStream(out);
     }
 
-    /// The type in which numbers are written: float64 for types that the class does not support.
-    static NumberType writtenType(NumberType type) {
-        const bool is_kept =
-            type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
-        return is_kept ? type : NumberType::Float64;
-    }
-
-    template <class Number>
-    static void writeField(const std::string& name, const std::vector<double>& values,
-                           CArchive& out) {
-        std::vector<Number> numbers(values.size());
-        std::transform(values.begin(), values.end(), numbers.begin(),
-                       [](double value) { return static_cast<Number>(value); });
-        out << name;
-        out.WriteAs<std::uint32_t>(numbers.size());
-        if (!numbers.empty()) out.WriteBufferFixEndianness(numbers.data(), numbers.size());
-    }
-
-    /// Writes all fields of one type. Fields with several numbers per point become several fields.
+    /// Writes all fields of one type; with double, those of types that the version lacks.
     template <class Number>
     void writeFields(CArchive& out) const {
-        const auto* const intensities = intensitiesOf(*this);
-        const bool with_intensity = std::is_same_v<Number, float> && has_intensity && intensities;
-        std::uint32_t count = with_intensity ? 1 : 0;
-        for (const PointField& field : other_fields.fields) {
-            if (writtenType(field.type) == typeOf<Number>())
-                count += static_cast<std::uint32_t>(field.count);
+        std::vector<const PointField*> written;
+        for (const PointField& field : fields.fields) {
+            if (writtenType(field.type) == typeOf<Number>()) written.push_back(&field);
         }
-        out << count;
-        if (with_intensity) {
-            writeField<Number>("intensity", {intensities->begin(), intensities->end()}, out);
-        }
-        for (const PointField& field : other_fields.fields) {
-            if (writtenType(field.type) != typeOf<Number>()) continue;
-            for (std::size_t element = 0; element < field.count; ++element) {
-                const std::string number = field.count == 1 ? "" : "_" + std::to_string(element);
-                writeField<Number>(field.name + number, columnOf(other_fields, field, element),
-                                   out);
-            }
+        out.WriteAs<std::uint32_t>(written.size());
+        for (const PointField* const field : written) {
+            const std::vector<double> values = columnOf(fields, *field);
+            std::vector<Number> numbers(values.size());
+            std::transform(values.begin(), values.end(), numbers.begin(),
+                           [](double value) { return static_cast<Number>(value); });
+            out << field->name;
+            out.WriteAs<std::uint32_t>(numbers.size());
+            if (!numbers.empty()) out.WriteBufferFixEndianness(numbers.data(), numbers.size());
         }
     }
 
-    void serializeFrom(CArchive& in, std::uint8_t version) override {
-        if (version > kNewestVersion) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-        fields_not_kept.clear();
-        Coordinates(in).copyTo(*this);
-        other_fields = {};
-        other_fields.points = size();
-        has_intensity = false;
-        readFields<float>(in, version);
-        if (version >= 1) readFields<double>(in, version);
-        readFields<std::uint16_t>(in, version);
-        if (version >= 2) readFields<std::uint8_t>(in, version);
-        if (version >= 4) readFields<std::uint32_t>(in, version);
-        readInsertionOptions(in, insertionOptions);
-        likelihoodOptions.readFromStream(in);
-        takeColor();
-    }
-
-    /// Keeps a field, or returns why it cannot be kept.
-    template <class Number>
-    std::string keep(const std::string& name, const std::vector<double>& values) {
-        if (name.empty()) return "no name";
-        if (findExactly(other_fields, name) != nullptr) return "duplicate name";
-        if (values.size() != size()) {
-            return "expected one value per point (" + std::to_string(size()) + "), found " +
-                   std::to_string(values.size());
-        }
-        addColumn(name, typeOf<Number>(), values, other_fields);
-        return "";
-    }
-
-    template <class Number>
-    void readFields(CArchive& in, std::uint8_t version) {
-        for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {
-            const std::string name = readText(in);
-            mrpt::aligned_std_vector<Number> values;
-            if (version >= 3 || std::is_same_v<Number, float>) {
-                readNumbers(in, in.ReadAs<std::uint32_t>(), values);
-            } else {
-                readVector(in, values);
-            }
-            if (name != "intensity") {
-                if (fields_not_kept.size() >= kMaxFields) {
-                    throw std::runtime_error("a cloud has too many fields");
-                }
-                const std::string why = keep<Number>(name, {values.begin(), values.end()});
-                const std::string unless = " (not kept: " + why + ")";
-                fields_not_kept.push_back(why.empty() ? name : name + unless);
-                continue;
-            }
-            has_intensity = true;
-            for (std::size_t i = 0; i < std::min(values.size(), size()); ++i) {
-                setPointIntensity(i, static_cast<float>(values[i]));
-            }
-        }
-    }
+    void serializeFrom(CArchive& in, std::uint8_t version) override;
 };
 
-const mrpt::rtti::TRuntimeClassId& genericClass() {
-    static const mrpt::rtti::TRuntimeClassId id{
-        kGenericName,
-        [] {
-            return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<GenericCloud>());
-        },
-        [] { return CLASS_ID(IntensityCloud); }};
-    return id;
+#else
+/// MRPT's class, read by GenericContent: all versions, and without trust in the file.
+class GenericCloud : public mrpt::maps::CGenericPointsMap {
+ public:
+    std::vector<std::string> fields_refused;
+
+    void setFields(const PointTable& table) {
+        for (const PointField& field : table.fields) {
+            const auto set = [&](auto& values_of_names) {
+                using Values = decltype(values_of_names.begin()->second);
+                const std::vector<double> values = columnOf(table, field);
+                values_of_names[field.name] = Values(values.begin(), values.end());
+            };
+            const NumberType type = writtenType(field.type);
+            if (type == NumberType::Float32) set(m_float_fields);
+            if (type == NumberType::Float64) set(m_double_fields);
+            if (type == NumberType::UInt16) set(m_uint16_fields);
+            if (type == NumberType::UInt8) set(m_uint8_fields);
+        }
+    }
+
+ private:
+    void serializeFrom(CArchive& in, std::uint8_t version) override;
+};
+#endif
+
+/// Copies the colour of the first point to renderOptions, from which colour fields are written.
+void takeColor(const PointTable& fields, CPointsMap& cloud) {
+    std::array<float, 3> color{};
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        const PointField* const field = findField(fields, {kColorFields[i]});
+        if (field == nullptr || cloud.empty()) return;
+        color[i] = static_cast<float>(columnOf(fields, *field)[0]) / 255.0f;
+    }
+    cloud.renderOptions.color = {color[0], color[1], color[2]};
+}
+
+void GenericCloud::serializeFrom(CArchive& in, std::uint8_t version) {
+    if (version > 4) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+    GenericContent content(in, version);
+    clear();
+    content.coordinates.copyTo(*this);
+    setFields(content.fields);
+    fields_refused = std::move(content.fields_refused);
+    readInsertionOptions(in, insertionOptions);
+    likelihoodOptions.readFromStream(in);
+    takeColor(content.fields, *this);
 }
 
 }  // namespace
@@ -266,17 +281,46 @@ void registerNewerClouds() {
 #if MRPT_VERSION < 0x020f00
     registerAs<SimpleCloud, CSimplePointsMap>("mrpt::maps::CSimplePointsMap");
 #endif
-    registerAs<GenericCloud, IntensityCloud>(kGenericName);
+    registerAs<GenericCloud, CPointsMap>(kGenericName);
+}
+
+std::optional<PointTable> otherFieldsOf(const CPointsMap& cloud) {
+#if MRPT_VERSION < 0x020f00
+    const auto* const generic = dynamic_cast<const GenericCloud*>(&cloud);
+    return generic == nullptr ? std::nullopt : std::optional<PointTable>(generic->fields);
+#else
+    const auto* const generic = dynamic_cast<const mrpt::maps::CGenericPointsMap*>(&cloud);
+    if (generic == nullptr) return std::nullopt;
+    PointTable fields;
+    fields.points = cloud.size();
+    const auto add = [&](NumberType type, const auto& values_of_names) {
+        for (const auto& [name, values] : values_of_names) {
+            if (values.size() != cloud.size()) continue;
+            addColumn(name, type, {values.begin(), values.end()}, fields);
+        }
+    };
+    add(NumberType::Float32, generic->float_fields());
+    add(NumberType::Float64, generic->double_fields());
+    add(NumberType::UInt16, generic->uint16_fields());
+    add(NumberType::UInt8, generic->uint8_fields());
+#if MRPT_VERSION >= 0x030000
+    add(NumberType::UInt32, generic->uint32_fields());
+#endif
+    return fields;
+#endif
 }
 
 std::vector<std::string> fieldsNotKept(const CPointsMap& cloud) {
-    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
-    return generic == nullptr ? std::vector<std::string>() : generic->fields_not_kept;
-}
-
-const PointTable* otherFieldsOf(const CPointsMap& cloud) {
-    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
-    return generic == nullptr ? nullptr : &generic->other_fields;
+    std::vector<std::string> names;
+    if (const auto fields = otherFieldsOf(cloud)) {
+        for (const PointField& field : fields->fields) {
+            if (field.name != kIntensity) names.push_back(field.name);
+        }
+    }
+    if (const auto* const generic = dynamic_cast<const GenericCloud*>(&cloud)) {
+        names.insert(names.end(), generic->fields_refused.begin(), generic->fields_refused.end());
+    }
+    return names;
 }
 
 CPointsMap::Ptr genericCloudOf(const PointTable& table) {
@@ -288,35 +332,37 @@ CPointsMap::Ptr genericCloudOf(const PointTable& table) {
         return columnOf(table, *field);
     };
     const std::vector<double> x_m = column("x"), y_m = column("y"), z_m = column("z");
-    const PointField* const intensity = findField(table, {"intensity"});
+    PointTable fields;
+    fields.points = table.points;
+    for (const PointField& field : table.fields) {
+        if (field.name == "x" || field.name == "y" || field.name == "z") continue;
+        const bool is_intensity = field.name == kIntensity;
+        for (std::size_t element = 0; element < field.count; ++element) {
+            std::string name = field.name;
+            if (field.count > 1) name += "_" + std::to_string(element);
+            while (findExactly(fields, name) != nullptr) name += "_";
+            addColumn(name, is_intensity ? NumberType::Float32 : writtenType(field.type),
+                      columnOf(table, field, element), fields);
+        }
+    }
     const auto cloud = std::make_shared<GenericCloud>();
-    cloud->is_written_as_generic = true;
-    cloud->has_intensity = intensity != nullptr;
-    cloud->other_fields = table;
-    auto& others = cloud->other_fields.fields;
-    const std::set<std::string> standard{"x", "y", "z", "intensity"};
-    const auto isStandard = [&](const PointField& field) { return standard.count(field.name) > 0; };
-    others.erase(std::remove_if(others.begin(), others.end(), isStandard), others.end());
     cloud->setSize(table.points);
     for (std::size_t i = 0; i < table.points; ++i) {
         cloud->setPointFast(i, static_cast<float>(x_m[i]), static_cast<float>(y_m[i]),
                             static_cast<float>(z_m[i]));
     }
-    if (intensity != nullptr) {
-        const std::vector<double> intensities = columnOf(table, *intensity);
-        for (std::size_t i = 0; i < table.points; ++i) {
-            cloud->setPointIntensity(i, static_cast<float>(intensities[i]));
-        }
-    }
-    cloud->takeColor();
+    cloud->setFields(fields);
+    takeColor(fields, *cloud);
+    writeAsGeneric(*cloud);
     cloud->mark_as_modified();
     return cloud;
 }
 
-void writeAsGeneric(CPointsMap& cloud) {
-    if (auto* const generic = dynamic_cast<GenericCloud*>(&cloud)) {
-        generic->is_written_as_generic = true;
-    }
+void writeAsGeneric([[maybe_unused]] CPointsMap& cloud) {
+#if MRPT_VERSION < 0x020f00
+    auto* const generic = dynamic_cast<GenericCloud*>(&cloud);
+    if (generic != nullptr) generic->is_written_as_generic = true;
+#endif
 }
 
 }  // namespace hagen::observations

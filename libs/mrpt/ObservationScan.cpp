@@ -91,7 +91,7 @@ FieldsOfReturns fieldsOfReturns(const CObservationPointCloud& observation) {
     if (const TableCloud* const table = tableCloudOf(observation)) {
         found.rings.values = table->rings();
         found.times_s.values = table->times_s();
-    } else if (const PointTable* const fields = otherFieldsOf(*observation.pointcloud)) {
+    } else if (const auto fields = otherFieldsOf(*observation.pointcloud)) {
         if (fields->points != observation.pointcloud->size()) return found;
         std::vector<std::uint32_t> all(fields->points);
         std::iota(all.begin(), all.end(), 0u);

@@ -26,10 +26,11 @@ bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
 /// colour fields, even if empty.
 bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
     if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
-    const PointTable* const others = otherFieldsOf(cloud);
-    if (others == nullptr || others->points > 0) return false;
-    return std::all_of(kColorFields.begin(), kColorFields.end(),
-                       [&](const char* name) { return findField(*others, {name}) != nullptr; });
+    if (!cloud.empty()) return false;
+    const auto others = otherFieldsOf(cloud);
+    return others && std::all_of(kColorFields.begin(), kColorFields.end(), [&](const char* name) {
+               return findField(*others, {name}) != nullptr;
+           });
 }
 
 /// The suffix of a result's label; empty for other observations.

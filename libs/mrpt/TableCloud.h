@@ -13,7 +13,7 @@
 
 namespace hagen::observations {
 
-/// A cloud with all fields of its input. MRPT writes only the fields of a CPointsMapXYZI. Field
+/// A cloud with all fields of its input. MRPT writes only coordinates and intensities. Field
 /// names are case-insensitive:
 ///
 /// - x, y, z: coordinates in the sensor's frame [m].

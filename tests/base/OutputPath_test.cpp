@@ -92,20 +92,6 @@ TEST_F(OutputPathTest, FindsPartialOutputsFromEarlierRuns) {
     EXPECT_EQ(partialOutputs(directory.string() + "/"), partialOutputs(directory));
 }
 
-TEST_F(OutputPathTest, FindsStaleTemporaryFiles) {
-    const auto of = [&](const std::string& process) {
-        return folder_.write("a.rawlog.tmp-" + process + "-0123456789abcdef", "half");
-    };
-    of("1");  // the process is still running
-    of("x");
-    EXPECT_THAT(partialOutputs(file_), IsEmpty());
-    const fs::path ended = of("999999999");
-    const fs::path reused = of(std::to_string(getpid()));  // left by an earlier run in a container
-    EXPECT_THAT(partialOutputs(file_), testing::UnorderedElementsAre(ended, reused));
-    EXPECT_THAT(leftBehind({file_, folder_ / "b"}), HasSubstr(ended.string()));
-    EXPECT_EQ(leftBehind({folder_ / "b"}), "");
-}
-
 TEST_F(OutputPathTest, RefusesToReplaceOtherTypes) {
     folder_.write("file", "old");
     fs::create_directory(folder_ / "folder");

@@ -608,22 +608,6 @@ TEST_P(ConversionTest, ReportsScanBeforeFirstAttitude) {
     EXPECT_EQ(convert(again).first_without_attitude, "");
 }
 
-TEST_P(ConversionTest, ReportsEarlierPartialOutputs) {
-    writeLog({scanFrom(0), scanFrom(1)});
-    ConversionListener stops;
-    for (int run = 0; run < 2; ++run) {
-        stops.keep_going = [entries = 0]() mutable { return ++entries < 2; };
-        EXPECT_THROW(convert(conversion(), stops), recordings::Interrupted);
-    }
-    std::vector<std::string> remarks;
-    convert(conversion(), remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::Contains("the outputs: earlier runs left " +
-                                           (folder_ / "out.partial-2.rawlog").string() + ", " +
-                                           (folder_ / "out.partial.rawlog").string() +
-                                           "; delete what you do not need"));
-    EXPECT_TRUE(fs::exists(folder_ / "out.partial.rawlog"));
-}
-
 TEST_P(ConversionTest, IncludesFirstAndLastScan) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
     Conversion part = conversion();

@@ -38,11 +38,8 @@ CObservationPointCloud::Ptr asCloud(const mrpt::serialization::CSerializable::Pt
 }
 
 /// The additional fields of a cloud read as a generic cloud.
-const PointTable& fieldsOf(const CObservationPointCloud& observation) {
-    static const PointTable none;
-    const PointTable* const fields = observations::otherFieldsOf(*observation.pointcloud);
-    EXPECT_NE(fields, nullptr);
-    return fields == nullptr ? none : *fields;
+PointTable fieldsOf(const CObservationPointCloud& observation) {
+    return observations::otherFieldsOf(*observation.pointcloud).value();
 }
 
 std::vector<mrpt::serialization::CSerializable::Ptr> entriesOf(const fs::path& file) {
@@ -201,7 +198,7 @@ TEST_F(GenericClouds, AreOptional) {
     for (const auto& entry : entriesOf(conversion_.rawlog)) {
         const auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(entry);
         if (!cloud) continue;
-        EXPECT_EQ(observations::otherFieldsOf(*cloud->pointcloud), nullptr);
+        EXPECT_FALSE(observations::otherFieldsOf(*cloud->pointcloud));
     }
 }
 
@@ -216,14 +213,14 @@ TEST_F(GenericClouds, KeepMrpt3Cloud) {
     std::size_t clouds = 0;
     for (const auto& entry : before) {
         const auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(entry);
-        if (!cloud || observations::otherFieldsOf(*cloud->pointcloud) == nullptr) continue;
+        if (!cloud || !observations::otherFieldsOf(*cloud->pointcloud)) continue;
         const auto same = std::find_if(after.begin(), after.end(), [&](const auto& other) {
             const auto written = std::dynamic_pointer_cast<CObservationPointCloud>(other);
             return written && written->sensorLabel == cloud->sensorLabel &&
                    written->timestamp == cloud->timestamp;
         });
         ASSERT_NE(same, after.end());
-        const PointTable &fields = fieldsOf(*cloud), &written = fieldsOf(*asCloud(*same));
+        const PointTable fields = fieldsOf(*cloud), written = fieldsOf(*asCloud(*same));
         EXPECT_EQ(namesOf(written), namesOf(fields));
         EXPECT_EQ(written.bytes, fields.bytes);
         ++clouds;

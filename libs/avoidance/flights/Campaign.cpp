@@ -45,8 +45,7 @@ std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profil
                                  "choose another folder, or discard its runs with --overwrite");
     };
     fs::create_directories(folder);
-    const std::size_t partial = base::partialOutputs(campaign).size();  // left by a killed command
-    if (!fs::exists(campaign) && base::entriesOf(folder).size() > partial) {
+    if (!fs::exists(campaign) && !fs::is_empty(folder)) {
         throw std::runtime_error(folder.string() +
                                  ": is not empty and has no campaign.json; choose another folder");
     }

@@ -216,9 +216,7 @@ void OpenLoopFiles::commit(const OpenLoop& open_loop, const OpenLoopResult& resu
     finish(open_loop, result);
     all_.commit();
     for (const auto& file : files_) {
-        for (const fs::path& part : base::partialOutputs(file->path.path())) {
-            if (part.filename().string().find(".partial") != std::string::npos) fs::remove(part);
-        }
+        for (const fs::path& part : base::partialOutputs(file->path.path())) fs::remove(part);
     }
 }
 

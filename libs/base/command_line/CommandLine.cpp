@@ -366,9 +366,4 @@ std::string Program::messageOf(const std::exception& e) {
     return e.what();
 }
 
-void tellLeftBehind(const std::vector<std::filesystem::path>& outputs) {
-    const std::string left = leftBehind(outputs);
-    if (!left.empty()) std::cerr << left << "\n";
-}
-
 }  // namespace hagen::base

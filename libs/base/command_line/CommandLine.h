@@ -127,7 +127,4 @@ class Program : public Command {
     double memory_gb_ = 0;
 };
 
-/// Lists partial outputs of earlier runs (leftBehind()) on standard error.
-void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
-
 }  // namespace hagen::base

@@ -25,7 +25,6 @@ constexpr std::uint8_t kRotationPitch270 = 25;             ///< MAV_SENSOR_ROTAT
 /// HEARTBEAT
 struct Heartbeat {
     static constexpr std::uint32_t kId = 0;
-    static constexpr const char* kName = "HEARTBEAT";
     static constexpr std::uint8_t kCrcExtra = 50;
     static constexpr std::size_t kBytes = 9;  ///< payload size
 
@@ -40,7 +39,6 @@ struct Heartbeat {
 /// ATTITUDE
 struct Attitude {
     static constexpr std::uint32_t kId = 30;
-    static constexpr const char* kName = "ATTITUDE";
     static constexpr std::uint8_t kCrcExtra = 39;
     static constexpr std::size_t kBytes = 28;  ///< payload size
 
@@ -56,7 +54,6 @@ struct Attitude {
 /// ATTITUDE_QUATERNION
 struct AttitudeQuaternion {
     static constexpr std::uint32_t kId = 31;
-    static constexpr const char* kName = "ATTITUDE_QUATERNION";
     static constexpr std::uint8_t kCrcExtra = 246;
     static constexpr std::size_t kBytes = 48;  ///< payload size
 
@@ -74,7 +71,6 @@ struct AttitudeQuaternion {
 /// LOCAL_POSITION_NED
 struct LocalPositionNed {
     static constexpr std::uint32_t kId = 32;
-    static constexpr const char* kName = "LOCAL_POSITION_NED";
     static constexpr std::uint8_t kCrcExtra = 185;
     static constexpr std::size_t kBytes = 28;  ///< payload size
 
@@ -90,7 +86,6 @@ struct LocalPositionNed {
 /// DISTANCE_SENSOR
 struct DistanceSensor {
     static constexpr std::uint32_t kId = 132;
-    static constexpr const char* kName = "DISTANCE_SENSOR";
     static constexpr std::uint8_t kCrcExtra = 85;
     static constexpr std::size_t kBytes = 39;  ///< payload size
 
@@ -111,7 +106,6 @@ struct DistanceSensor {
 /// OBSTACLE_DISTANCE
 struct ObstacleDistance {
     static constexpr std::uint32_t kId = 330;
-    static constexpr const char* kName = "OBSTACLE_DISTANCE";
     static constexpr std::uint8_t kCrcExtra = 23;
     static constexpr std::size_t kBytes = 167;  ///< payload size
 
@@ -129,7 +123,6 @@ struct ObstacleDistance {
 /// OBSTACLE_DISTANCE_3D
 struct ObstacleDistance3d {
     static constexpr std::uint32_t kId = 11037;
-    static constexpr const char* kName = "OBSTACLE_DISTANCE_3D";
     static constexpr std::uint8_t kCrcExtra = 130;
     static constexpr std::size_t kBytes = 28;  ///< payload size
 

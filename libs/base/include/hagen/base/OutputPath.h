@@ -55,15 +55,11 @@ class OutputPath {
     bool overwrites_;
 };
 
-/// Leftovers of earlier runs, sorted by name: partial outputs (keepPartial()), and temporary files
-/// of processes that have ended. Empty if the path is empty.
+/// Partial outputs of earlier runs (keepPartial()), sorted by name. Empty if the path is empty.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
 /// Replaces temporary names in a message with the names of the outputs.
 std::string withOutputNames(const std::string& message);
-
-/// A message that lists the partialOutputs() of several outputs; "" if there are none.
-std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
 
 /// Throws std::runtime_error if an output is an input, contains an input, is inside an input, or is
 /// inside another output; the message names both. Ignores empty paths. `role` describes the inputs

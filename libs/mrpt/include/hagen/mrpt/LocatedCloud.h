@@ -10,8 +10,8 @@
 
 namespace hagen::observations {
 
-/// A cloud with known sensor, beams and times, such as from Ouster packets. MRPT writes it as a
-/// CPointsMapXYZI without this information.
+/// A cloud with known sensor, beams and times, such as from Ouster packets. MRPT writes it
+/// without this information.
 class LocatedCloud : public IntensityCloud {
  public:
     /// Copies coordinates, intensities, rows and times of a scan, and further fields. Throws

@@ -66,8 +66,8 @@ void showCloud(const mrpt::obs::CObservation& observation, CloudSensors& sensors
 /// Point type of a cloud.
 enum class CloudClass {
     Simple,         ///< CSimplePointsMap: coordinates only; readable by MRPT 2.5 to 3
-    WithIntensity,  ///< CPointsMapXYZI: coordinates and intensities
-    Generic  ///< CGenericPointsMap: all fields; readable by MRPT 2.15 or later (NewerClouds.h)
+    WithIntensity,  ///< IntensityCloud: coordinates and intensities
+    Generic         ///< CGenericPointsMap: all fields (genericCloudOf())
 };
 
 /// Converts all returns, or those with these indices, to an MRPT cloud.
