@@ -118,8 +118,6 @@ struct GenericContent {
     }
 
  private:
-    static constexpr std::size_t kMaxFields = 256;
-
     /// Keeps a field, or returns why it cannot be kept.
     std::string keep(const std::string& name, NumberType type, const std::vector<double>& values) {
         if (name.empty()) return "no name";
@@ -142,7 +140,7 @@ struct GenericContent {
             } else {
                 readVector(in, values);
             }
-            if (fields.fields.size() + fields_refused.size() >= kMaxFields) {
+            if (fields.fields.size() + fields_refused.size() >= 256) {
                 throw std::runtime_error("a cloud has too many fields");
             }
             const std::string why = keep(name, typeOf<Number>(), {values.begin(), values.end()});

@@ -88,14 +88,15 @@ inline void appendPoints(const mrpt::maps::CPointsMap& from, const std::vector<b
 #endif
 
 /// Deletes the points whose flag is set, with all their fields.
-inline void deletePoints(std::vector<bool> is_deleted, mrpt::maps::CPointsMap& cloud) {
+inline void deletePoints(const std::vector<bool>& is_deleted, mrpt::maps::CPointsMap& cloud) {
 #if MRPT_VERSION < 0x020f00
     cloud.applyDeletionMask(is_deleted);
 #else
     const mrpt::rtti::CObject::Ptr all = cloud.duplicateGetSmartPtr();
     cloud.clear();
-    is_deleted.flip();
-    appendPoints(dynamic_cast<const mrpt::maps::CPointsMap&>(*all), is_deleted, cloud);
+    std::vector<bool> is_kept = is_deleted;
+    is_kept.flip();
+    appendPoints(dynamic_cast<const mrpt::maps::CPointsMap&>(*all), is_kept, cloud);
 #endif
 }
 
