@@ -1,4 +1,4 @@
-# Finds MRPT 2.5 to 3. Package names of version 3 differ: mrpt_obs instead of mrpt-obs. Sets
+# Finds MRPT 2.5 to 3, but not 2.15.0 to 2.15.11. Package names of version 3 differ: mrpt_obs instead of mrpt-obs. Sets
 # find_mrpt::PART, the find command for users of an installed Hagen, and HAGEN_MRPT_SCENE, the
 # target for 3D scenes.
 set(HAGEN_MRPT_PARTS obs maps opengl)
@@ -18,6 +18,9 @@ foreach(part ${HAGEN_MRPT_PARTS})
   # Version 3 has targets such as mrpt::mrpt_obs.
   if(NOT TARGET mrpt::${part} AND TARGET mrpt::${HAGEN_MRPT_PREFIX}${part})
     add_library(mrpt::${part} ALIAS mrpt::${HAGEN_MRPT_PREFIX}${part})
+  endif()
+  if(mrpt-obs_VERSION VERSION_GREATER_EQUAL 2.15 AND mrpt-obs_VERSION VERSION_LESS 2.15.12)
+    message(FATAL_ERROR "MRPT ${mrpt-obs_VERSION} is not supported: its clouds keep no names of fields; use 2.14 or 2.15.12")
   endif()
   set(find_mrpt::${part} "find_dependency(${HAGEN_MRPT_PREFIX}${part} ${HAGEN_MRPT_OLDEST})")
   set(pc_mrpt::${part} none)

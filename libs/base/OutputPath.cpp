@@ -218,7 +218,6 @@ std::vector<fs::path> partialOutputs(const fs::path& output) {
     if (output.empty()) return found;
     const fs::path path = withoutSlash(output);
     const bool is_folder = fs::is_directory(path);
-    // Names chosen by keepPartial().
     const std::string stem = (is_folder ? path.filename() : path.stem()).string();
     const std::string extension = is_folder ? "" : path.extension().string();
     std::error_code unreadable;

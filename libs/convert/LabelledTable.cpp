@@ -149,7 +149,7 @@ void useCloudsWithFields(const mrpt::obs::CObservation& observation,
         }
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
-    // CGenericPointsMap does not support uint32.
+    // CGenericPointsMap does not support uint32 before MRPT 3.
     const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16).table;
     const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
         std::vector<std::uint32_t> of_returns;

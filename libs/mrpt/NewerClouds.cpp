@@ -3,7 +3,6 @@
 #include <mrpt/core/aligned_std_vector.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/serialization/aligned_serialization.h>
 #include <mrpt/serialization/stl_serialization.h>
 #include <mrpt/version.h>
 
@@ -43,8 +42,9 @@ constexpr NumberType typeOf() {
 
 /// The type in which numbers are written: float64 for types that the class does not support.
 NumberType writtenType(NumberType type) {
-    const bool is_kept =
-        type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
+    const bool is_kept = type == NumberType::Float32 || type == NumberType::UInt16 ||
+                         type == NumberType::UInt8 ||
+                         (type == NumberType::UInt32 && MRPT_VERSION >= 0x030000);
     return is_kept ? type : NumberType::Float64;
 }
 
@@ -211,7 +211,9 @@ class GenericCloud : public IntensityCloud {
         }
         out.WriteAs<std::uint32_t>(written.size());
         for (const PointField* const field : written) {
-            const std::vector<double> values = columnOf(fields, *field);
+            std::vector<double> values = columnOf(fields, *field);
+            const auto* const own = field->name == kIntensity ? intensitiesOf(*this) : nullptr;
+            if (own != nullptr) values.assign(own->begin(), own->end());  // may have been changed
             std::vector<Number> numbers(values.size());
             std::transform(values.begin(), values.end(), numbers.begin(),
                            [](double value) { return static_cast<Number>(value); });
@@ -242,6 +244,9 @@ class GenericCloud : public mrpt::maps::CGenericPointsMap {
             if (type == NumberType::Float64) set(m_double_fields);
             if (type == NumberType::UInt16) set(m_uint16_fields);
             if (type == NumberType::UInt8) set(m_uint8_fields);
+#if MRPT_VERSION >= 0x030000
+            if (type == NumberType::UInt32) set(m_uint32_fields);
+#endif
         }
     }
 
@@ -342,6 +347,10 @@ CPointsMap::Ptr genericCloudOf(const PointTable& table) {
             addColumn(name, is_intensity ? NumberType::Float32 : writtenType(field.type),
                       columnOf(table, field, element), fields);
         }
+    }
+    const PointField* const intensity = findField(table, {kIntensity});
+    if (intensity != nullptr && findExactly(fields, kIntensity) == nullptr) {
+        addColumn(kIntensity, NumberType::Float32, columnOf(table, *intensity), fields);
     }
     const auto cloud = std::make_shared<GenericCloud>();
     cloud->setSize(table.points);

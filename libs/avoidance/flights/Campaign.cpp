@@ -2,7 +2,6 @@
 #include <hagen/avoidance/Trial.h>
 #include <hagen/base/OutputPath.h>
 #include "avoidance/flights/SettingsHash.h"
-#include "base/Folder.h"
 #include "base/Json.h"
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
@@ -47,7 +46,7 @@ std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profil
     fs::create_directories(folder);
     if (!fs::exists(campaign) && !fs::is_empty(folder)) {
         throw std::runtime_error(folder.string() +
-                                 ": is not empty and has no campaign.json; choose another folder");
+                                 ": is not empty and has no campaign.json; choose an empty folder");
     }
     if (overwrites) {
         fs::remove(table);

@@ -11,7 +11,6 @@
 #include <sstream>
 #include <type_traits>
 
-#include <hagen/base/OutputPath.h>
 #include "base/MemoryLimit.h"
 #include "base/NumberText.h"
 #include "base/command_line/Interrupt.h"

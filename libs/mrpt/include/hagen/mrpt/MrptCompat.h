@@ -76,12 +76,7 @@ inline void appendPoints(const mrpt::maps::CPointsMap& from, const std::vector<b
     to.registerPointFieldsFrom(from);
     const auto fields = to.prepareForInsertPointsFrom(from);
     for (std::size_t i = 0; i < from.size(); ++i) {
-        if (!is_chosen[i]) continue;
-#if MRPT_VERSION < 0x020f03
-        to.insertPointFrom(from, i, fields);
-#else
-        to.insertPointFrom(i, fields);
-#endif
+        if (is_chosen[i]) to.insertPointFrom(i, fields);
     }
     to.mark_as_modified();
 }

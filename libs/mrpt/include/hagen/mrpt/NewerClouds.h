@@ -28,10 +28,10 @@ constexpr std::array<const char*, 3> kColorFields{"color_r", "color_g", "color_b
 
 /// A cloud that is serialized as a CGenericPointsMap, with all fields of a checked little-endian
 /// table: as version 3, which requires MRPT 2.15 or later, or with MRPT 3 as version 4, which
-/// requires MRPT 3. uint8, uint16, float32 and float64 keep their types; other numbers become
-/// float64, intensities float32. Several numbers per point become NAME_0, NAME_1. Throws
-/// std::invalid_argument if x, y or z is missing. Sets renderOptions to the colour of the first
-/// point.
+/// requires MRPT 3. uint8, uint16, float32, float64 and with MRPT 3 uint32 keep their types; other
+/// numbers become float64, intensities float32. Several numbers per point become NAME_0, NAME_1.
+/// Throws std::invalid_argument if x, y or z is missing. Sets renderOptions to the colour of the
+/// first point.
 mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable& table);
 
 /// Lets a cloud that was read as a CGenericPointsMap be written as the same class with MRPT before
